@@ -45,7 +45,7 @@ struct RunArguments {
   std::string scene;  ///< empty: the default scene
   std::optional<std::filesystem::path> record;
   std::vector<std::string> comparisons;  ///< variants to run in lockstep (heml/session/variant.hpp)
-  ImageSize size;
+  std::optional<ImageSize> size;         ///< none: as the window was left
   double exit_after = 0;  ///< s until the window closes; 0: never
   double draw_stall = 0;  ///< ms added to every drawing
   bool log_pictures = false;

@@ -39,11 +39,12 @@ constexpr const char* frame_size_help = "size of frames, pixels";
 
 Action define_run(CLI::App& command) {
   const auto given = std::make_shared<RunArguments>();
-  const auto size = std::make_shared<std::string>(usual_size);
+  const auto size = std::make_shared<std::string>();
   command.add_option("SCENE", given->scene, scene_or_default_help);
   command.add_option("--record", given->record, "append every action to this recording (.jsonl)")->type_name("FILE");
   add_comparisons(command, given->comparisons);
-  add_size(command, *size, "size of the window, pixels");
+  command.add_option("--size", *size, "size of the window, pixels; else as it was left, at first 1280x720")
+      ->type_name("WxH");
   command.add_option("--exit-after", given->exit_after, "close by itself after so many seconds")
       ->check(number_between(0))
       ->type_name("S");
@@ -53,7 +54,7 @@ Action define_run(CLI::App& command) {
   command.add_flag("--log-pictures", given->log_pictures,
                    "a line on stderr for every frame drawn: what it shows, and what is still to come (for tests)");
   return [given, size] {
-    given->size = parse_size(*size);
+    if (!size->empty()) given->size = parse_size(*size);
     return run(*given);
   };
 }

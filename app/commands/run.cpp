@@ -18,7 +18,7 @@ int run(const RunArguments& arguments) {
   options.record = arguments.record;
   options.warnings = warnings.texts();
   options.comparisons = arguments.comparisons;
-  options.size = {arguments.size.width, arguments.size.height};
+  if (arguments.size) options.size = {arguments.size->width, arguments.size->height};
   options.exit_after = arguments.exit_after;
   options.draw_stall = arguments.draw_stall;
   options.log_pictures = arguments.log_pictures;
@@ -29,6 +29,7 @@ int run(const RunArguments& arguments) {
   CaptureArguments instead;
   instead.scene = arguments.scene;
   instead.comparisons = arguments.comparisons;
+  if (arguments.size) instead.size = *arguments.size;
   log_info("no window ({}): capturing {} frames into ./{} instead", reason, instead.frames, instead.out.string());
   return capture(instead);
 }

@@ -22,9 +22,9 @@ void upload_fonts(ImTextureID texture) {
 
 }  // namespace
 
-Interface::Interface(float scale) : renderer_(scale) {
+Interface::Interface(float scale, Theme theme) : renderer_(scale) {
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-  set_look(scale, Theme::dark);
+  set_look(scale, theme);
 }
 
 float Interface::suitable_scale(render::Size size) {

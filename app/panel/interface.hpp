@@ -9,7 +9,7 @@ namespace heml::panel {
 class Interface {
  public:
   /// scale: 1 for 15 pixels of text.
-  explicit Interface(float scale);
+  explicit Interface(float scale, Theme theme = Theme::dark);
 
   /// The scale for an image of a size: 1 from 1280×720 up, down to 0.72 for smaller ones.
   static float suitable_scale(render::Size size);

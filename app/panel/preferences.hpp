@@ -5,11 +5,13 @@
 //   hints off
 //   theme light
 //   size 1.25
+//   window 1600 900
 //   tool jaw length 0.12
 //   device moves view
 //   open Compare
 //   closed Motion
 #include <app/panel/theme.hpp>
+#include <app/render/image.hpp>
 #include <map>
 #include <string>
 #include <string_view>
@@ -22,6 +24,7 @@ struct Look {
   Theme theme = Theme::dark;
   bool operator==(const Look&) const = default;
 };
+constexpr render::Size first_window{1280, 720};
 constexpr double interface_sizes[] = {0.75, 1, 1.25, 1.5, 2};
 
 struct Preferences {
@@ -30,6 +33,7 @@ struct Preferences {
   bool constraints = true;      ///< beads at held nodes are drawn
   bool full_resolution = true;  ///< of the image
   Look look;
+  render::Size window = first_window;    ///< its size, screen coordinates
   std::map<std::string, double> tools;   ///< settings by name (tool_section.cpp); lengths in radii of the body
   std::map<std::string, bool> sections;  ///< by title: opened (true) or closed by hand
   bool device_moves_view = false;        ///< a SpaceMouse does, in place of a hand

@@ -43,7 +43,10 @@ FORWARD(int, glfwGetGamepadState, (int jid, GLFWgamepadstate* state), (jid, stat
 FORWARD(int, glfwGetInputMode, (GLFWwindow* window, int mode), (window, mode))
 FORWARD(const float*, glfwGetJoystickAxes, (int jid, int* count), (jid, count))
 FORWARD(const unsigned char*, glfwGetJoystickButtons, (int jid, int* count), (jid, count))
+FORWARD(void, glfwGetMonitorWorkarea, (GLFWmonitor* monitor, int* x, int* y, int* width, int* height),
+        (monitor, x, y, width, height))
 FORWARD(int, glfwGetMouseButton, (GLFWwindow* window, int button), (window, button))
+FORWARD(GLFWmonitor*, glfwGetPrimaryMonitor, (), ())
 FORWARD(double, glfwGetTime, (), ())
 FORWARD(int, glfwGetWindowAttrib, (GLFWwindow* window, int attrib), (window, attrib))
 FORWARD(void, glfwGetWindowSize, (GLFWwindow* window, int* width, int* height), (window, width, height))

@@ -18,6 +18,19 @@ std::string last_error(const char* otherwise) {
   return text ? text : otherwise;
 }
 
+/// Of the first screen, without bars; 0×0: none.
+render::Size work_area() {
+  render::Size area{0, 0};
+  if (GLFWmonitor* first = glfwGetPrimaryMonitor())
+    glfwGetMonitorWorkarea(first, nullptr, nullptr, &area.width, &area.height);
+  return area;
+}
+
+render::Size within(render::Size area, render::Size size) {
+  if (area.width <= 0 || area.height <= 0) return size;
+  return {std::min(size.width, area.width), std::min(size.height, area.height)};
+}
+
 /// The number of a key in panel/keys.hpp: by the character printed on it, not by its position.
 int panel_key(int key, int scancode) {
   switch (key) {
@@ -74,10 +87,11 @@ int panel_key(int key, int scancode) {
 GlfwWindow& GlfwWindow::self(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
 WindowEvents* GlfwWindow::events_of(GLFWwindow* window) { return self(window).events_; }
 
-GlfwWindow::GlfwWindow(const std::string& title, render::Size size) {
+GlfwWindow::GlfwWindow(const std::string& title, render::Size size, bool within_screen) {
   // Limits Mesa's software renderer to one core: the others are for the engine.
   setenv("LP_NUM_THREADS", "1", 0);
   if (!glfwInit()) throw NoDisplay(last_error("no display"));
+  if (within_screen) size = within(work_area(), size);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -114,6 +128,12 @@ void GlfwWindow::make_current() { glfwMakeContextCurrent(window_); }
 render::Size GlfwWindow::size() const {
   render::Size size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
+  return size;
+}
+
+render::Size GlfwWindow::window_size() const {
+  render::Size size;
+  glfwGetWindowSize(window_, &size.width, &size.height);
   return size;
 }
 

@@ -27,14 +27,16 @@ class WindowEvents {
 /// At most one exists at a time, on the program's main thread.
 class GlfwWindow final : public render::GraphicsContext {
  public:
-  /// Opens the window and makes its context current. Throws NoDisplay.
-  GlfwWindow(const std::string& title, render::Size size);
+  /// Opens the window and makes its context current. size: screen coordinates. within_screen: no larger than the
+  /// screen. Throws NoDisplay.
+  GlfwWindow(const std::string& title, render::Size size, bool within_screen);
   ~GlfwWindow() override;
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
 
   void make_current() override;
   render::Size size() const override;
+  render::Size window_size() const;  ///< screen coordinates
   void present() override;
   GLADloadfunc loader() const override;
 

@@ -19,7 +19,7 @@ std::string window_title(const Scene& scene) {
 Viewer::Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& options)
     : window_(window),
       options_(options),
-      interface_(panel::Interface::suitable_scale(window.size()) * window.content_scale()) {
+      interface_(interface_scale(), preferences_.look.theme) {
   adopt(start(scene, options.record, options.comparisons, options.warnings));
   window_.send_events_to(this);
   offer_left_work();
@@ -125,9 +125,7 @@ void Viewer::draw() {
   mouse_tool_.set_section(panel_->drawing().section);
   open_.session->enable_errors(panel_->wants_errors());
   const render::Size size = window_.size();
-  interface_.set_look(
-      panel::Interface::suitable_scale(size) * window_.content_scale() * static_cast<float>(preferences_.look.size),
-      preferences_.look.theme);
+  interface_.set_look(interface_scale(), preferences_.look.theme);
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
   move_hands(seconds);
@@ -149,6 +147,11 @@ void Viewer::draw() {
   ++drawn_;
 }
 
+float Viewer::interface_scale() const {
+  return panel::Interface::suitable_scale(window_.size()) * window_.content_scale() *
+         static_cast<float>(preferences_.look.size);
+}
+
 void Viewer::draw_interface(float seconds) {
   window_.prepare_imgui(!input_.empty());
   interface_.begin(controller_.size(), seconds);
@@ -162,6 +165,7 @@ void Viewer::draw_interface(float seconds) {
 
 void Viewer::remember_preferences() {
   panel::Preferences now = panel_->preferences();
+  now.window = options_.size ? preferences_.window : window_.window_size();
   if (now == preferences_) return;
   preferences_ = std::move(now);
   write_preferences(preferences_);

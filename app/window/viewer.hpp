@@ -81,6 +81,7 @@ class Viewer final : public WindowEvents {
   void compare(const std::vector<std::string>& variants);
   void resume_with(const std::vector<std::string>& comparisons);
   const Frame& seen() const { return panel::frame_in_pane(*frame_, controller_.current()); }  ///< in the current pane
+  float interface_scale() const;
   void draw_interface(float seconds);
   void remember_preferences();
   void draw_marks();
@@ -134,6 +135,7 @@ class Viewer final : public WindowEvents {
 
   GlfwWindow& window_;
   WindowOptions options_;
+  panel::Preferences preferences_ = read_preferences();
   panel::ComparisonView bodies_;
   panel::Interface interface_;
   panel::CameraController controller_;
@@ -153,7 +155,6 @@ class Viewer final : public WindowEvents {
   TimelinePlayback playback_;
   std::optional<int> shown_progress_;              ///< of session_loader_, %
   std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
-  panel::Preferences preferences_ = read_preferences();
   std::optional<panel::Panel> panel_;
   const Frame* frame_ = nullptr;
   const Frame* live_ = nullptr;  ///< the engine's newest, while frame_ may be a past one

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <app/window/state_folder.hpp>
 #include <app/window/viewer.hpp>
 #include <app/window/window.hpp>
 #include <chrono>
@@ -27,7 +28,7 @@ class DrawingPace {
   static constexpr double shortest = 1.0 / 60;  ///< s
 
  private:
-  static constexpr double rest = 1.0 / 16;      // of the drawing time
+  static constexpr double rest = 1.0 / 16;  // of the drawing time
   Clock::time_point next_{};
 };
 
@@ -63,7 +64,8 @@ void show(window::GlfwWindow& window, window::Viewer& viewer, const WindowOption
 
 std::optional<std::string> run_window(const Scene& scene, const WindowOptions& options) {
   try {
-    window::GlfwWindow window("heml", options.size);
+    // A size that was asked for is taken as it is; one that is remembered may be of a larger screen.
+    window::GlfwWindow window("heml", options.size.value_or(window::read_preferences().window), !options.size);
     window::Viewer viewer(window, scene, options);
     show(window, viewer, options);
     const Frame& last = viewer.frame();

@@ -13,7 +13,7 @@ struct WindowOptions {
   std::optional<std::filesystem::path> record;  ///< file for a recording of the session
   std::vector<std::string> comparisons;         ///< variants to run in lockstep (heml/session/variant.hpp)
   std::vector<std::string> warnings;            ///< of reading the scene, for people
-  render::Size size{1280, 720};                 ///< pixels
+  std::optional<render::Size> size;             ///< pixels; none: as the window was left, at first 1280×720
   double exit_after = 0;                        ///< s of wall time until the window closes by itself; 0: never
   double draw_stall = 0;                        ///< ms added to every drawing, to test that the engine is not delayed
   bool log_pictures = false;                    ///< prints Viewer::status() on stderr after each drawing

@@ -82,10 +82,13 @@ class WindowCase(unittest.TestCase):
         self.wait_for("a picture", lambda: self.status().frame > 0 and self.display.picture().colours() > colours)
         self.settle()
 
-    def begin_light(self, *arguments, scene=None, size="640x360"):
+    def write_light(self, scene=None):
         file = self.folder / "light.json"
         file.write_text(json.dumps(scene or light_scene()))
-        self.begin(file, "--size", size, *arguments)
+        return file
+
+    def begin_light(self, *arguments, scene=None, size="640x360"):
+        self.begin(self.write_light(scene), "--size", size, *arguments)
 
     def quit(self):
         self.xdo("key", "ctrl+q")

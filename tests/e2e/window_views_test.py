@@ -1,6 +1,7 @@
 """Looking around and inside in the window: standard views, the axes, turning about the tissue under the mouse, regions,
 measuring, fixed colours."""
 import math
+import subprocess
 import unittest
 
 from window_case import WindowCase, light_scene
@@ -56,6 +57,36 @@ class Views(WindowCase):
         again = self.steady()
         self.assertGreater(len(set(self.tissue(other)) ^ set(self.tissue(top))), 0.1 * len(self.tissue(top)))
         self.assert_same_tissue(top, again, "the view saved before")
+
+    def window_size(self):
+        """Width and height of the program's window."""
+        found = subprocess.run(["xdotool", "search", "--class", "heml"], env=self.environment, capture_output=True,
+                               text=True, check=True).stdout.split()
+        told = subprocess.run(["xdotool", "getwindowgeometry", "--shell", found[-1]], env=self.environment,
+                              capture_output=True, text=True, check=True).stdout
+        numbers = dict(line.split("=") for line in told.split())
+        return int(numbers["WIDTH"]), int(numbers["HEIGHT"])
+
+    def test_the_window_opens_as_large_as_it_was_left_but_no_larger_than_the_screen(self):
+        self.open_display(1280, 720)
+        file = self.write_light()
+        self.begin(file)
+        self.assertEqual(self.window_size(), (1280, 720))
+        self.xdo("search", "--class", "heml", "windowsize", 900, 600)
+        self.wait_for("a smaller window", lambda: self.window_size() == (900, 600))
+        self.wait_for("its size on file",
+                      lambda: "window 900 600" in (self.folder / "state" / "heml" / "panel").read_text())
+        self.quit()
+        for arguments, size in (((), (900, 600)), (("--size", "800x500"), (800, 500)), ((), (900, 600))):
+            self.log.unlink()
+            self.begin(file, *arguments)
+            self.assertEqual(self.window_size(), size)
+            self.quit()
+        (self.folder / "state" / "heml" / "panel").write_text("window 5000 3000\n")
+        self.log.unlink()
+        self.begin(file)
+        self.assertEqual(self.window_size(), (1280, 720))
+        self.quit()
 
     def test_numpad_turns_to_standard_views_and_to_an_orthographic_camera(self):
         first = self.start_still()
