@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <app/panel/help.hpp>
 #include <app/panel/keys.hpp>
+#include <app/panel/search.hpp>
 #include <app/panel/theme.hpp>
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,45 +59,107 @@ std::array<Group, 3> groups_of_page() {
   for (const KeyBinding& binding : key_bindings())
     if (binding.label[0]) groups[2].lines.push_back({binding.label, binding.meaning});
   std::vector<Line>&first = groups[1].lines, &rest = groups[2].lines;
-  first.assign(rest.begin(), rest.begin() + std::ssize(rest) / 3);
+  const std::ptrdiff_t headings = 2;  // lines of the second title and the gap before it
+  const std::ptrdiff_t below = (std::ssize(rest) - std::ssize(groups[0].lines) - headings) / 2;  // columns end alike
+  first.assign(rest.begin(), rest.begin() + std::max<std::ptrdiff_t>(below, 0));
   rest.erase(rest.begin(), rest.begin() + std::ssize(first));
   return groups;
 }
 
+/// A found row: its name, and its meaning below where both do not fit a line.
+void draw_row(const std::string& left, const std::string& right, float column, float width) {
+  ImGui::TextUnformatted(left.c_str());
+  if (ImGui::CalcTextSize(left.c_str()).x < column - ImGui::GetFontSize()) ImGui::SameLine(column);
+  ImGui::PushStyleColor(ImGuiCol_Text, colours::muted);
+  ImGui::PushTextWrapPos(width);
+  ImGui::TextUnformatted(right.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
 }  // namespace
 
-bool draw_help(ImVec2 picture, Area& place) {
+std::vector<HelpEntry> find_help(const std::string& words, const std::vector<Rows::Listed>& rows) {
+  std::vector<HelpEntry> found;
+  const auto add = [&](HelpEntry entry) {
+    if (has_words(entry.title + ' ' + entry.left + ' ' + entry.right, words)) found.push_back(std::move(entry));
+  };
+  for (const Group& group : groups_of_page())
+    for (const Line& line : group.lines) add({group.title, line.left, line.right});
+  for (const auto& [section, label] : rows)
+    if (!label.hint.empty()) add({section, label.text, label.hint});
+  return found;
+}
+
+void Help::toggle() {
+  open_ = !open_;
+  search_[0] = '\0';
+  page_ = {0, 0};
+}
+
+void Help::draw(const Rows& rows, ImVec2 picture) {
+  if (!open_) return;
+  const ImVec2 room(picture.x - em(2), picture.y - em(2));
+  ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({std::min(page_.x, room.x), std::min(page_.y, room.y)}, room);
+  ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(0.97f);
+  ImGui::Begin("Mouse and keys", nullptr,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar);
+  draw_search();
+  if (search_[0])
+    draw_found(rows, page_.x - ImGui::GetStyle().WindowPadding.x);
+  else
+    draw_page({room.x, room.y - ImGui::GetCursorPosY()});
+  const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  if (!search_[0]) page_ = size;
+  place_ = {from, {from.x + size.x, from.y + size.y}};
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
+      !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+    open_ = false;
+  ImGui::End();
+}
+
+void Help::draw_search() {
+  ImGui::SetNextItemWidth(em(18));
+  if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing searches at once
+  if (ImGui::InputTextWithHint("##help", "Search keys and settings", search_.data(), search_.size()))
+    need_letters(search_.data());
+  ImGui::SameLine();
+  ImGui::TextDisabled("Esc closes");
+}
+
+void Help::draw_page(ImVec2 room) {
   std::array<Group, 3> groups = groups_of_page();
-  const ImVec2 room(picture.x - em(2), picture.y - em(2)), pad = ImGui::GetStyle().WindowPadding;
+  const ImVec2 pad = ImGui::GetStyle().WindowPadding;
   const auto fits = [&] {
     for (Group& group : groups) group.measure();
     const float width = std::max(groups[0].width, groups[1].width) + em(2.5f) + groups[2].width;
     return width + 2 * pad.x <= room.x &&
-           std::max(groups[0].height() + groups[1].height(), groups[2].height()) + 2 * pad.y <= room.y;
+           std::max(groups[0].height() + groups[1].height(), groups[2].height()) + pad.y <= room.y;
   };
   const bool large = fits();
-  ImGui::PushFont(font(large ? Font::text : Font::small));
+  const UseFont chosen(large ? Font::text : Font::small);
   const bool two_columns = large || fits();
-  ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, room);
-  ImGui::SetNextWindowFocus();
-  ImGui::SetNextWindowBgAlpha(0.97f);
-  bool open = true;
-  ImGui::Begin("Mouse and keys", &open,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar);
   ImGui::BeginGroup();
   groups[0].draw();
   groups[1].draw();
   ImGui::EndGroup();
   if (two_columns) ImGui::SameLine(0, em(2.5f));
   groups[2].draw();
-  const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  place = {from, {from.x + size.x, from.y + size.y}};
-  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsWindowHovered()) open = false;
-  ImGui::End();
-  ImGui::PopFont();
-  return open;
+}
+
+void Help::draw_found(const Rows& rows, float width) const {
+  constexpr float column = 12;  // em, of the meanings
+  const std::vector<HelpEntry> found = find_help(search_.data(), rows.listed());
+  if (found.empty()) ImGui::TextDisabled("Nothing found in keys and open sections.");
+  std::string heading;
+  for (const auto& [title, left, right] : found) {
+    if (std::exchange(heading, title) != title)
+      ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", title.c_str());
+    draw_row(left, right, em(column), width);
+  }
 }
 
 }  // namespace heml::panel

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <app/panel/icons.hpp>
 #include <app/panel/open_dialog.hpp>
-#include <cctype>
-#include <sstream>
+#include <app/panel/search.hpp>
 #include <string_view>
 #include <utility>
 
@@ -10,11 +9,6 @@ namespace heml::panel {
 namespace {
 
 constexpr float widest = 78, wide_from = 58, side_column = 0.4f, cell_width = 10.5f;  // em; side_column: of the width
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 }  // namespace
 
@@ -169,11 +163,7 @@ bool OpenDialog::draw_line(Rows& rows, const OpenChoice& choice, bool selected) 
 
 /// Whether title, description and path contain all words of the search text.
 bool OpenDialog::matches(const OpenChoice& choice) const {
-  const std::string text = lower_case(choice.title + ' ' + choice.description + ' ' + choice.path.string());
-  std::istringstream words(lower_case(search_));
-  for (std::string word; words >> word;)
-    if (text.find(word) == std::string::npos) return false;
-  return true;
+  return has_words(choice.title + ' ' + choice.description + ' ' + choice.path.string(), search_);
 }
 
 void OpenDialog::activate(const OpenChoice& choice, PanelActions& out) {

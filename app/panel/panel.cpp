@@ -4,7 +4,6 @@
 #include <app/panel/axes.hpp>
 #include <app/panel/film_sign.hpp>
 #include <app/panel/header.hpp>
-#include <app/panel/help.hpp>
 #include <app/panel/keys.hpp>
 #include <app/panel/legend.hpp>
 #include <app/panel/look_section.hpp>
@@ -174,7 +173,7 @@ bool Panel::covers(float x, float y) const {
 
 PanelActions Panel::draw(const Frame& frame) {
   PanelActions out;
-  rows_.new_frame();
+  rows_.new_frame(help_.is_open());
   rects_.clear();
   errors_open_ = false;
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
@@ -191,11 +190,7 @@ PanelActions Panel::draw(const Frame& frame) {
   const auto banner = state_banner_.choose(frame, motion_.integrator(), motion_.budget(), beside_body(free, picture));
   take_press(notices_.draw(rows_, between, banner, ImGui::GetIO().DeltaTime), frame, out);
   out.open_folder = notices_.take_folder();
-  if (help_open_) {
-    Area place;
-    help_open_ = draw_help(picture, place);
-    rects_.push_back(place);
-  }
+  help_.draw(rows_, picture);
   dialog_.draw(rows_, picture, out);
   out.answer = question_.draw(rows_, picture);
   perform_queued(frame, out);

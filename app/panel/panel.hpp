@@ -14,6 +14,7 @@
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
 #include <app/panel/compare_section.hpp>
+#include <app/panel/help.hpp>
 #include <app/panel/hints.hpp>
 #include <app/panel/history.hpp>
 #include <app/panel/material_section.hpp>
@@ -87,7 +88,8 @@ class Panel {
     question_.ask(std::move(title), std::move(text), std::move(answers));
   }
   bool asks() const { return question_.is_open(); }
-  bool is_modal() const { return dialog_.is_open() || question_.is_open(); }  ///< takes keys and mouse
+  /// Whether something in the middle of the image takes keys and mouse.
+  bool is_modal() const { return dialog_.is_open() || question_.is_open() || help_.is_open(); }
 
   render::DrawOptions drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return stretch_monitor_.active(); }  ///< whether frames should carry Frame::stretches
@@ -154,7 +156,8 @@ class Panel {
   float controls_height_ = 1e9f;  ///< pixels, of the header and all open sections, as last drawn
   std::vector<std::string> findings_;
   StateBanner state_banner_;
-  bool hidden_ = false, help_open_ = false;
+  Help help_;
+  bool hidden_ = false;
   bool errors_open_ = false;  ///< the section "Accuracy" is open
 };
 

@@ -51,7 +51,7 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       hidden_ = !hidden_;
       return;
     case Action::help:
-      help_open_ = !help_open_;
+      help_.toggle();
       return;
     case Action::open:
       dialog_.open();
@@ -64,7 +64,8 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return dialog_.open_selected(out);
     case Action::release:
       if (Rows::close_choices() || dialog_.close()) return;
-      if (help_open_ || notices_.close()) help_open_ = false;
+      if (help_.is_open()) return help_.close();
+      notices_.close();
       return ask(timeline_ && (timeline_->shown || timeline_->resume_progress) ? Request::live : Request::release);
     case Action::seek_previous:
       return ask(Request::previous_frame);

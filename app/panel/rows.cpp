@@ -84,6 +84,7 @@ void text_at_right(const std::string& text, ImU32 colour) {
 }
 
 void Rows::explain(const Label& label) {
+  if (lists_) listed_.push_back({section_, label});
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   hovered_ = label.text;
   if (label.hint.empty() || ImGui::IsAnyMouseDown()) return;
@@ -106,6 +107,7 @@ void Rows::begin(const Label& label) {
 }
 
 bool Rows::section(const char* title, bool open_at_first) {
+  section_ = title;
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + em(0.1f));
   const auto known = sections_.find(title);
   bool open = known == sections_.end() ? open_at_first : known->second;

@@ -61,7 +61,18 @@ class Rows {
   const std::map<std::string, bool>& sections() const { return sections_; }
   void set_sections(std::map<std::string, bool> sections) { sections_ = std::move(sections); }
 
-  void new_frame() { hovered_.clear(); }
+  /// lists: whether the rows of this frame are to be found in listed().
+  void new_frame(bool lists = false) {
+    hovered_.clear();
+    lists_ = lists;
+    listed_.clear();
+  }
+  /// A row, and the section that it stands in; empty above the first.
+  struct Listed {
+    std::string section;
+    Label label;
+  };
+  const std::vector<Listed>& listed() const { return listed_; }
   /// Shows the tooltip of the item just drawn when the mouse is on it.
   void explain(const Label& label);
   /// Label of the row under the mouse in this frame; empty: none.
@@ -79,6 +90,9 @@ class Rows {
     double value;
   };
   std::string hovered_;
+  bool lists_ = false;
+  std::vector<Listed> listed_;
+  std::string section_;  ///< the last one drawn
   std::map<std::string, bool> sections_;
   std::optional<Typed> typed_;  ///< the number that is being typed
 };
