@@ -4,6 +4,7 @@
 #include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/intersections.hpp>
 #include <heml/mesh/mend/clean_triangles.hpp>
 #include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/mend/remesh.hpp>
@@ -62,12 +63,15 @@ class Turns {
 };
 
 /// What check_surface() finds wrong, without the file and the remedy; empty: nothing, and the surface is as it leaves
-/// it.
-std::string problem_of(TriangleMesh& surface) {
+/// it. crossings: MendReport::crossings.
+std::string problem_of(TriangleMesh& surface, int& crossings) {
   TriangleMesh checked = surface;
+  crossings = 0;
   try {
     check_surface(checked);
   } catch (const InputError& error) {
+    if (const auto* crossing = dynamic_cast<const SelfIntersection*>(&error))
+      crossings = static_cast<int>(crossing->pairs());
     std::string text = error.what();
     if (text.starts_with(surface.source + ": ")) text.erase(0, surface.source.size() + 2);
     return text.substr(0, text.rfind(" ("));
@@ -159,7 +163,7 @@ MendedSurface mend_surface(TriangleMesh surface) {
   check_numbers(surface);
   const Turns before(surface);
   MendedSurface mended{std::move(surface), {}};
-  if (const std::string problem = problem_of(mended.surface); !problem.empty()) {
+  if (const std::string problem = problem_of(mended.surface, mended.report.crossings); !problem.empty()) {
     if (mended.surface.triangles.size() > max_triangles)
       throw InputError(
           mended.surface.source, "",
@@ -167,7 +171,7 @@ MendedSurface mend_surface(TriangleMesh surface) {
           fmt::format("{} triangles at most", max_triangles));
     clean(mended.surface, mended.report);
     close_holes(mended.surface, mended.report);
-    mended.report.unmended = problem_of(mended.surface);
+    mended.report.unmended = problem_of(mended.surface, mended.report.crossings);
     if (mended.report.unmended.empty())
       expect_volume(mended.surface);
     else

@@ -19,6 +19,7 @@ struct MendReport {
   FilledHoles holes;
   int turned = 0;        ///< triangles that were not turned outward
   std::string unmended;  ///< what is wrong still, so that the surface is meshed anew; else empty
+  int crossings = 0;     ///< pairs of triangles that cross in it, as far as they are counted (intersections.hpp)
 };
 
 struct MendedSurface {
