@@ -348,7 +348,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     if (regions_.has_choice() && rows_.section("Regions", false)) regions_.draw(rows_);
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
     if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
-    if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, out);
+    if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, mesh_.openings(), out);
     if (rows_.section("Window", false)) draw_look(rows_, look_);
     controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
     ImGui::EndChild();
@@ -357,9 +357,8 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
 }
 
 void Panel::draw_findings(PanelActions& out) {
-  if (!rows_.section(mesh_.is_shown() ? "This mesh" : "As opened")) return;
-  mesh_.draw(rows_, out);
-  if (findings_.empty()) return;
+  if (mesh_.is_shown()) return mesh_.draw(rows_, material_.materials(), findings_, out);
+  if (!rows_.section("As opened")) return;
   const UseFont small(Font::small);
   ImGui::PushTextWrapPos(0);
   for (const std::string& text : findings_) ImGui::TextUnformatted(text.c_str());
@@ -389,8 +388,8 @@ void Panel::draw_header(const Frame& frame) {
   else
     button("Pause", "Pauses the simulation (Space).", true, Action::toggle_play, draw_pause);
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
-  button("Undo", undo_hint(frame, -1).c_str(), false, Action::undo, draw_undo);
-  button("Redo", undo_hint(frame, 1).c_str(), false, Action::redo, draw_redo);
+  button("Undo", undo_hint(frame, mesh_.openings(), -1).c_str(), false, Action::undo, draw_undo);
+  button("Redo", undo_hint(frame, mesh_.openings(), 1).c_str(), false, Action::redo, draw_redo);
   button("Reset",
          "Back to the initial state at time 0; all that was set stays (R). Shift+R: all of the scene as it was opened, "
          "one step for undo.",

@@ -83,6 +83,7 @@ class Viewer final : public WindowEvents {
   const Frame& seen() const { return panel::frame_in_pane(*frame_, controller_.current()); }  ///< in the current pane
   void draw_interface(float seconds);
   void remember_preferences();
+  void show_mesh();
   void draw_marks();
   std::optional<render::Hit> hovered() const;
   bool is_on_clamp() const;           ///< the mouse
@@ -155,6 +156,8 @@ class Viewer final : public WindowEvents {
   std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
   panel::Preferences preferences_ = read_preferences();
   std::optional<panel::Panel> panel_;
+  panel::MeshOpenings openings_;  ///< of the bare mesh that is open
+  bool mesh_folded_ = false;      ///< its section is
   const Frame* frame_ = nullptr;
   const Frame* live_ = nullptr;  ///< the engine's newest, while frame_ may be a past one
 

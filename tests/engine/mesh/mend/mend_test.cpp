@@ -225,6 +225,7 @@ TEST_CASE("bodies that cross are united by meshing anew") {
   const TriangleMesh crossing = together(cube(size, {0, 0, 0}), cube(size, {0.5, 0.4, 0.3}));
   const MendedSurface mended = mend_surface(crossing);
   CHECK(says(mended.report.unmended, "meets triangle"));
+  CHECK(mended.report.crossings == static_cast<int>(self_intersections(crossing).pairs));
   const TetMesh mesh = tetrahedralize(mended);
   CHECK(volume_of(mesh) == doctest::Approx(2 - overlap).epsilon(0.03));
   CHECK(mesh.tets.size() < 15000);
