@@ -22,7 +22,7 @@ std::string change_text(const BareMeshOptions& before, const BareMeshOptions& af
   compare("up", before.up, after.up, [](UpAxis axis) { return std::string(info_of(axis).name); });
   compare("supports", before.supports, after.supports, [](SupportKind kind) { return std::string(name_of(kind)); });
   compare("tissue", before.tissue, after.tissue, [](const std::string& name) { return name; });
-  compare("fineness", before.tets, after.tets, [](int tets) { return fmt::format("{} tetrahedra", tets); });
+  compare("tetrahedra", before.tets, after.tets, [](int tets) { return fmt::format("{}", tets); });
   return changes.empty() ? "as guessed" : fmt::format("{}", fmt::join(changes, ", "));
 }
 

@@ -118,7 +118,7 @@ std::vector<Offer<int>> fineness_offers(const BareMeshChoices& chosen, bool is_s
   const int now = given.value_or(chosen.tets);
   std::vector<Offer<int>> offers;
   const auto add_now = [&] {
-    offers.push_back({fmt::format("{} tetrahedra", grouped_digits(chosen.tets)),
+    offers.push_back({grouped_digits(chosen.tets),
                       fmt::format("The smallest dihedral angle is {:.2g}°.", chosen.min_dihedral), now, true});
   };
   for (const int tets : numbers) {
@@ -184,7 +184,7 @@ bool MeshSection::draw_tissue(Rows& rows, const std::vector<RegionMaterial>& mat
 bool MeshSection::draw_fineness(Rows& rows, BareMeshOptions& options) const {
   return choose(
       rows,
-      {"Fineness",
+      {"Tetrahedra",
        (is_scan_ ? "Number of tetrahedra, met within a quarter. "
                  : fmt::format("Number of tetrahedra, {} as read. Another number gives elements better shapes "
                                "too and moves the surface by 0.5 % of the body's size at most. ",

@@ -4,7 +4,7 @@
 //    ┌ This mesh ──────────────────── ⌄ ┐
 //    │ Unit       [centimetres       v] │   another choice opens the mesh again with it; ↶ goes back to the guess
 //    │ Length     [15.2 cm         ] ↶  │
-//    │ Up, Supports, Tissue, Fineness   │
+//    │ Up, Supports, Tissue, Tetrahedra │
 //    │ ● 4 holes                closed  │   mended
 //    │ ● 634 slivers     kept, 0.41°    │   not mended
 //    │ [Keep as scene]  [Close]         │

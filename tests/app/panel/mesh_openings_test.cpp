@@ -81,9 +81,8 @@ TEST_CASE("what an opening changed is told by its name") {
   all.supports = SupportKind::table;
   all.tissue = "liver_human";
   all.tets = 5000;
-  CHECK(change_text(guessed, all) ==
-        "unit: inches, up: -z, supports: table, tissue: liver_human, fineness: 5000 tetrahedra");
-  CHECK(change_text(all, inches) == "up: as guessed, supports: as guessed, tissue: as guessed, fineness: as guessed");
+  CHECK(change_text(guessed, all) == "unit: inches, up: -z, supports: table, tissue: liver_human, tetrahedra: 5000");
+  CHECK(change_text(all, inches) == "up: as guessed, supports: as guessed, tissue: as guessed, tetrahedra: as guessed");
   CHECK(change_text(guessed, of_unit("", 0.012)) == "unit: scaled by 0.012");
 }
 

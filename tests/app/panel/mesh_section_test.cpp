@@ -66,7 +66,7 @@ TEST_CASE("a choice keeps the earlier ones, and a button at its end goes back to
   CHECK(driver.click("Unit as guessed", back).mesh_options == without(&BareMeshOptions::unit));
   CHECK(driver.click("Up as guessed", back).mesh_options == without(&BareMeshOptions::up));
   CHECK(driver.click("Supports as guessed", back).mesh_options == without(&BareMeshOptions::supports));
-  CHECK(driver.click("Fineness as guessed", back).mesh_options == without(&BareMeshOptions::tets));
+  CHECK(driver.click("Tetrahedra as guessed", back).mesh_options == without(&BareMeshOptions::tets));
   Driver other(mesh_scene());
   CHECK_FALSE(has_row(other, "Up as guessed", back));
 }
@@ -84,7 +84,7 @@ TEST_CASE("a length that is typed scales the body to it") {
   REQUIRE(options);
   CHECK(options->unit->name == "");
   CHECK(options->unit->scale == doctest::Approx(0.02).epsilon(1e-12));  // 15 of the file are 30 cm
-  CHECK(typed("1e9")->unit->scale == doctest::Approx(2.0 / 15).epsilon(1e-12));
+  CHECK(typed("99999")->unit->scale == doctest::Approx(2.0 / 15).epsilon(1e-12));
   CHECK(typed("0")->unit->scale == doctest::Approx(0.001 / 15).epsilon(1e-12));
   CHECK_FALSE(typed("15"));
   CHECK_FALSE(typed(""));
@@ -113,10 +113,10 @@ TEST_CASE("another tissue opens the mesh again with the preset") {
 TEST_CASE("coarser, finer and better meshes are offered about the number of the file") {
   Driver driver(mesh_scene());
   const std::string gap = "\u00a0";  // grouped digits
-  CHECK(driver.choose("Fineness", "500, coarser").mesh_options->tets == 500);
-  CHECK(driver.choose("Fineness", "4" + gap + "100, finer").mesh_options->tets == 4100);
-  CHECK(driver.choose("Fineness", "2" + gap + "048, better shapes").mesh_options->tets == 2048);
-  CHECK_FALSE(driver.choose("Fineness", "2" + gap + "048 tetrahedra").mesh_options);
+  CHECK(driver.choose("Tetrahedra", "510, coarser").mesh_options->tets == 510);
+  CHECK(driver.choose("Tetrahedra", "4" + gap + "100, finer").mesh_options->tets == 4100);
+  CHECK(driver.choose("Tetrahedra", "2" + gap + "048, better shapes").mesh_options->tets == 2048);
+  CHECK_FALSE(driver.choose("Tetrahedra", "2" + gap + "048").mesh_options);
 }
 
 TEST_CASE("what was found is listed with counts") {
@@ -160,7 +160,7 @@ TEST_CASE("the section is closed by its button and opened by its title, and a sc
 }
 
 TEST_CASE("undo opens the mesh as before") {
-  Driver driver(mesh_scene());
+  Driver driver(mesh_scene(), 1280, 1600);
   panel::MeshOpenings openings;
   BareMeshOptions turned;
   turned.up = UpAxis::x;

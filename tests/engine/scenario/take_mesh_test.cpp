@@ -2,6 +2,7 @@
 
 #include <engine/mesh/files.hpp>
 #include <engine/mesh/solids.hpp>
+#include <heml/base/warning_collector.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/write.hpp>
@@ -94,6 +95,35 @@ TEST_CASE("the wanted number is in the scene file and gives the same mesh to the
   REQUIRE(!scene.chosen->findings.empty());
   CHECK(scene.chosen->findings[0].is_mended);
   CHECK(scene.chosen->texts[0].about == "fineness");
+}
+
+TEST_CASE("a file that is taken again is not read again until it changes, and says the same") {
+  const TemporaryFolder folder;
+  write_tet_mesh(folder / "body.msh", flat_box());
+  const Scene first = scene_of(folder / "body.msh", 1500), again = scene_of(folder / "body.msh", 1500);
+  CHECK(first.mesh.source == again.mesh.source);
+  CHECK(again.mesh.tets == 1500);
+  CHECK(again.chosen->read_tets == 2560);
+  CHECK(again.chosen->tets == first.chosen->tets);
+  CHECK(again.chosen->min_dihedral == first.chosen->min_dihedral);
+  CHECK(again.chosen->findings.size() == first.chosen->findings.size());
+  CHECK(scene_of(folder / "body.msh", {}).mesh.source->tets.size() == 2560);
+  write_tet_mesh(folder / "body.msh", make_box(Vec3(0.1, 0.1, 0.1), {2, 2, 2}));
+  CHECK(scene_of(folder / "body.msh", {}).mesh.source->tets.size() == 40);
+}
+
+TEST_CASE("what was warned of a surface is warned again when it is taken again") {
+  if (!can_mesh()) return;
+  const TemporaryFolder folder;
+  TriangleMesh surface = box_surface(Vec3(0.1, 0.1, 0.1), 3);
+  surface.triangles.pop_back();
+  write_surface(folder / "open.obj", surface);
+  for (int time = 0; time < 2; ++time) {
+    const WarningCollector warnings;
+    scene_of(folder / "open.obj", {});
+    REQUIRE(!warnings.texts().empty());
+    CHECK(warnings.texts()[0].find("closed 1 hole") != std::string::npos);
+  }
 }
 
 TEST_CASE("a surface is filled coarser and finer than its triangles would have it") {
