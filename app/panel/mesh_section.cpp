@@ -211,8 +211,6 @@ void MeshSection::draw_end(Rows& rows, const std::vector<std::string>& texts, Pa
     for (const std::string& text : texts) ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
   }
-  if (!kept_.empty())
-    rows.value({"Kept", kept_.string() + "\n\nheml run opens it; it is a text to edit."}, kept_.filename().string());
   if (rows.button({"Keep as scene",
                    "Writes a complete scene file with all that is set here and below into the working "
                    "folder (Ctrl+S)."}))
@@ -222,6 +220,9 @@ void MeshSection::draw_end(Rows& rows, const std::vector<std::string>& texts, Pa
                    "Folds this away, for this file also at the next start. A click on “This mesh” opens "
                    "it again."}))
     open_ = false;
+  if (kept_.empty()) return;
+  const std::string name = elided(kept_.filename().string(), ImGui::GetContentRegionAvail().x - em(3));
+  rows.value({"Kept", kept_.string() + "\n\nheml run opens it; it is a text to edit."}, name);
 }
 
 void MeshSection::draw(Rows& rows, const std::vector<RegionMaterial>& materials, const std::vector<std::string>& texts,

@@ -71,11 +71,14 @@ std::vector<Finding> findings_of(const MendReport& report) {
                              holes.longest, 100 * holes.largest_share)});
   add(findings, {report.turned, plural(report.turned, "triangle turned inward", "triangles turned inward"), "turned",
                  true, "They face outward now."});
+  add(findings, {report.smoothed, plural(report.smoothed, "self-intersection", "self-intersections"), "smoothed apart",
+                 true, "Pairs of triangles that crossed at creases; nodes were moved a little."});
   if (!report.unmended.empty()) {
     const bool crosses = report.crossings > 0;
-    add(findings,
-        {crosses ? report.crossings : 1, crosses ? "self-intersections" : "surface not closed", "meshed anew", true,
-         "No repair of triangles mends this: " + report.unmended + ". The space inside was meshed anew."});
+    add(findings, {crosses ? report.crossings : 1,
+                   crosses ? plural(report.crossings, "self-intersection", "self-intersections") : "surface not closed",
+                   "meshed anew", true,
+                   "No repair of triangles mends this: " + report.unmended + ". The space inside was meshed anew."});
   }
   return findings;
 }

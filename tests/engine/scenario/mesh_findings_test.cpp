@@ -51,10 +51,11 @@ TEST_CASE("each repair of a surface is a finding with its count") {
   report.holes.holes = 5;
   report.holes.sheets = 1;
   report.turned = 7;
-  CHECK(lines(findings_of(report)) == Lines{"3 double nodes: merged", "1 flat triangle: removed",
-                                            "2 double triangles: removed", "1 T-junction: edges split",
-                                            "4 loose parts: left out", "1 inner wall: left out", "1 sheet: left out",
-                                            "5 holes: closed", "7 triangles turned inward: turned"});
+  report.smoothed = 6;
+  CHECK(lines(findings_of(report)) ==
+        Lines{"3 double nodes: merged", "1 flat triangle: removed", "2 double triangles: removed",
+              "1 T-junction: edges split", "4 loose parts: left out", "1 inner wall: left out", "1 sheet: left out",
+              "5 holes: closed", "7 triangles turned inward: turned", "6 self-intersections: smoothed apart"});
   CHECK(findings_of(MendReport()).empty());
 }
 

@@ -220,6 +220,16 @@ TEST_CASE("a wall between two rooms and a fin are left out") {
   CHECK(mended_to(1, surface, 1e-12).walls.parts == 1);
 }
 
+TEST_CASE("what is smoothed apart at a crease is counted") {
+  const TriangleMesh creased = creased_box();
+  const MendReport report = mend_surface(creased).report;
+  CHECK(report.smoothed == static_cast<int>(self_intersections(creased).pairs));
+  CHECK(report.smoothed > 0);
+  CHECK(report.crossings == 0);
+  CHECK(report.unmended.empty());
+  CHECK(mend_surface(sphere()).report.smoothed == 0);
+}
+
 TEST_CASE("bodies that cross are united by meshing anew") {
   const double size = 1, overlap = 0.5 * 0.6 * 0.7;
   const TriangleMesh crossing = together(cube(size, {0, 0, 0}), cube(size, {0.5, 0.4, 0.3}));
