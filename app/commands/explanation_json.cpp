@@ -120,6 +120,13 @@ Json chosen_json(const Explanation& explained) {
   const SolverSettings& solver = explained.setup.solver;
   Json texts = Json::array();
   for (const BareMeshChoices::Text& text : chosen.texts) texts.push_back({{"about", text.about}, {"text", text.text}});
+  Json findings = Json::array();
+  for (const BareMeshChoices::Finding& finding : chosen.findings)
+    findings.push_back({{"count", finding.count},
+                        {"found", finding.found},
+                        {"done", finding.done},
+                        {"mended", finding.is_mended},
+                        {"detail", finding.detail}});
   return {{"unit", chosen.unit.empty() ? Json() : Json(chosen.unit)},
           {"scale", chosen.scale},
           {"length", chosen.length},
@@ -136,6 +143,11 @@ Json chosen_json(const Explanation& explained) {
           {"budget_iterations", solver.budget ? Json(solver.budget->iterations) : Json()},
           {"budget_linear", solver.budget ? Json(solver.budget->linear) : Json()},
           {"load", chosen.load},
+          {"tissue", chosen.given.tissue ? Json(*chosen.given.tissue) : Json()},
+          {"read_tets", chosen.read_tets},
+          {"tets", chosen.tets},
+          {"min_dihedral", chosen.min_dihedral},
+          {"findings", findings},
           {"texts", texts}};
 }
 

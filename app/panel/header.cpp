@@ -24,7 +24,7 @@ void draw_pace(Rows& rows, const Frame& frame) {
 }  // namespace
 
 void draw_header(Rows& rows, const std::string& title, const std::string& description, const Frame& frame,
-                 std::vector<Action>& pressed) {
+                 const MeshOpenings& openings, std::vector<Action>& pressed) {
   const std::string time = fmt::format("{:.2f} s", frame.time);
   const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(time.c_str()).x - em(0.8f);
   {
@@ -46,8 +46,8 @@ void draw_header(Rows& rows, const std::string& title, const std::string& descri
   else
     button("Pause", "Pauses the simulation (Space).", true, Action::toggle_play, draw_pause);
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
-  button("Undo", undo_hint(frame, -1).c_str(), false, Action::undo, draw_undo);
-  button("Redo", undo_hint(frame, 1).c_str(), false, Action::redo, draw_redo);
+  button("Undo", undo_hint(frame, openings, -1).c_str(), false, Action::undo, draw_undo);
+  button("Redo", undo_hint(frame, openings, 1).c_str(), false, Action::redo, draw_redo);
   button("Reset",
          "Back to the initial state at time 0; all that was set stays (R). Shift+R: all of the scene as it was opened, "
          "one step for undo.",

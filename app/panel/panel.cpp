@@ -268,7 +268,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
   if (ImGui::Begin("controls", nullptr,
                    column_flags | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
     record_window_rect();
-    draw_header(rows_, title_, description_, frame, pressed_);
+    draw_header(rows_, title_, description_, frame, mesh_.openings(), pressed_);
     const float header_height = ImGui::GetCursorPosY();
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
     if (mesh_.is_shown() || !findings_.empty()) draw_findings(out);
@@ -284,7 +284,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     if (regions_.has_choice() && rows_.section("Regions", false)) regions_.draw(rows_);
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
     if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
-    if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, out);
+    if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, mesh_.openings(), out);
     if (rows_.section("Window", false)) draw_look(rows_, look_);
     controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
     ImGui::EndChild();
@@ -293,9 +293,8 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
 }
 
 void Panel::draw_findings(PanelActions& out) {
-  if (!rows_.section(mesh_.is_shown() ? "This mesh" : "As opened")) return;
-  mesh_.draw(rows_, out);
-  if (findings_.empty()) return;
+  if (mesh_.is_shown()) return mesh_.draw(rows_, material_.materials(), findings_, out);
+  if (!rows_.section("As opened")) return;
   const UseFont small(Font::small);
   ImGui::PushTextWrapPos(0);
   for (const std::string& text : findings_) ImGui::TextUnformatted(text.c_str());

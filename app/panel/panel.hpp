@@ -64,6 +64,8 @@ class Panel {
 
   /// What was found and chosen when the scene was opened; a section tells it until it is dismissed.
   void set_findings(std::vector<std::string> findings);
+  MeshSection& mesh() { return mesh_; }
+  const MeshSection& mesh() const { return mesh_; }
   void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
   /// Shows its axes in the corner of the image from now on.

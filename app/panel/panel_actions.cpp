@@ -1,5 +1,6 @@
 // Panel::carry_out(): what each action does.
 #include <app/panel/panel.hpp>
+#include <app/panel/undo_section.hpp>
 
 namespace heml::panel {
 namespace {
@@ -120,11 +121,9 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::toggle_table:
       return tool_.toggle_table(frame, out);
     case Action::undo:
-      out.commands.emplace_back(StepHistory{-1});
-      return;
+      return step_history(-1, frame, mesh_.openings(), out);
     case Action::redo:
-      out.commands.emplace_back(StepHistory{1});
-      return;
+      return step_history(1, frame, mesh_.openings(), out);
     case Action::record_video:
       return ask(Request::record_video);
     case Action::view_1:

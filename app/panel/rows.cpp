@@ -103,16 +103,22 @@ void Rows::begin(const Label& label) {
   ImGui::PopStyleColor();
   explain(label);
   ImGui::SameLine(left + em(label_width));
-  ImGui::SetNextItemWidth(-1);
+  ImGui::SetNextItemWidth(-std::max(1.0f, std::exchange(room_, 0.0f)));
 }
 
 bool Rows::section(const char* title, bool open_at_first) {
+  const auto known = sections_.find(title);
+  const bool was_open = known == sections_.end() ? open_at_first : known->second;
+  bool open = was_open;
+  if (fold(title, open) != was_open) sections_[title] = open;
+  return open;
+}
+
+bool Rows::fold(const char* title, bool& open) {
   section_ = title;
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + em(0.1f));
-  const auto known = sections_.find(title);
-  bool open = known == sections_.end() ? open_at_first : known->second;
   const ImVec2 from = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, em(1.45f));
-  if (ImGui::InvisibleButton(title, size)) sections_[title] = open = !open;
+  if (ImGui::InvisibleButton(title, size)) open = !open;
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) hovered_ = title;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -136,7 +142,8 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   ImGui::PushID(label.text.c_str());
   bool changed =
       ImGui::SliderScalar("##value", ImGuiDataType_Double, &edited, &range.low, &range.high, range.format, flags);
-  if (is_typing(ImGui::GetID("##value"), changed, edited)) changed = false;
+  const ImGuiID id = ImGui::GetID("##value");
+  if (is_typing(id, ImGui::TempInputIsActive(id), changed, edited)) changed = false;
   ImGui::PopID();
   ImGui::PopStyleColor(3);
   explain(
@@ -145,6 +152,19 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   // Unit conversion there and back changes the last bits: not an edit.
   const bool same = std::abs(edited - value) <= 1e-9 * std::max(std::abs(edited), std::abs(value));
   if (!changed || same || !std::isfinite(edited)) return false;
+  value = edited;
+  return true;
+}
+
+bool Rows::number(const Label& label, double& value, const char* format) {
+  begin(label);
+  const std::string name = "##" + label.text;
+  double edited = value;
+  bool changed = ImGui::InputScalar(name.c_str(), ImGuiDataType_Double, &edited, nullptr, nullptr, format);
+  const bool active = ImGui::IsItemActive();
+  explain(label);
+  if (is_typing(ImGui::GetID(name.c_str()), active, changed, edited) || !changed) return false;
+  if (!std::isfinite(edited) || formatted(format, edited) == formatted(format, value)) return false;
   value = edited;
   return true;
 }
@@ -167,9 +187,10 @@ void Rows::text(const Label& label, std::string& value, std::size_t most) {
 }
 
 /// ImGui changes a typed number at each keystroke. Here the last one counts when the typing ends, and none after Esc.
-/// Returns whether a number is being typed; sets `changed` and `edited` where one has been.
-bool Rows::is_typing(ImGuiID id, bool& changed, double& edited) {
-  if (ImGui::TempInputIsActive(id)) {
+/// active: whether the control takes letters now. Returns whether a number is being typed; sets `changed` and `edited`
+/// where one has been.
+bool Rows::is_typing(ImGuiID id, bool active, bool& changed, double& edited) {
+  if (active) {
     if (changed || !typed_ || typed_->id != id) typed_ = Typed{id, changed, edited};
     return true;
   }

@@ -28,9 +28,13 @@ class Rows {
  public:
   /// A foldable section; true while open. open_at_first: where it was neither opened nor closed before.
   bool section(const char* title, bool open_at_first = true);
+  /// The same where the caller keeps whether it is open.
+  bool fold(const char* title, bool& open);
 
   /// True when the user changed the value.
   bool slider(const Label& label, double& value, const SliderRange& range);
+  /// A number to type. True when it was changed: on Enter, Tab, or a click elsewhere.
+  bool number(const Label& label, double& value, const char* format);
   /// Three numbers to type. True when one was changed: on Enter, Tab, or a click elsewhere.
   bool vector(const Label& label, Vec3& value, const char* format);
   /// A text to type, of at most so many bytes.
@@ -41,6 +45,9 @@ class Rows {
   /// Closes what choice() has opened; true if anything was open.
   static bool close_choices();
   bool check(const Label& label, bool& value);
+
+  /// The control of the next row ends so many pixels before the window's edge.
+  void leave_room(float pixels) { room_ = pixels; }
 
   /// The label of a row whose controls follow.
   void name(const Label& label) { begin(label); }
@@ -82,7 +89,7 @@ class Rows {
   /// Draws the label, moves the cursor to the control and sets its width.
   void begin(const Label& label);
 
-  bool is_typing(ImGuiID id, bool& changed, double& edited);
+  bool is_typing(ImGuiID id, bool active, bool& changed, double& edited);
 
   struct Typed {
     ImGuiID id;
@@ -93,6 +100,7 @@ class Rows {
   bool lists_ = false;
   std::vector<Listed> listed_;
   std::string section_;  ///< the last one drawn
+  float room_ = 0;  ///< leave_room()
   std::map<std::string, bool> sections_;
   std::optional<Typed> typed_;  ///< the number that is being typed
 };

@@ -2,12 +2,22 @@
 
 #include <app/panel/quantity.hpp>
 #include <app/panel/tissue_choice.hpp>
-#include <heml/scenario/presets.hpp>
 
 namespace heml::panel {
 namespace {
 
-std::string hint_of(const Preset& preset) {
+Material with_preset(const Material& material, const Preset& preset) {
+  Material result = preset.material;
+  result.density = material.density;
+  if (!find_law(result.law)->has_fibre) return result;
+  if (!material.fibre.isZero()) result.fibre = material.fibre;
+  result.fibre_field = material.fibre_field;
+  return result;
+}
+
+}  // namespace
+
+std::string tissue_hint(const Preset& preset) {
   std::string text = preset.species.empty() ? preset.tissue : fmt::format("{}, {}", preset.tissue, preset.species);
   text += fmt::format("\nMeasured in: {}.", preset.test);
   text += fmt::format("\nShear modulus at rest: {}.", quantity(preset.shear_modulus, "Pa"));
@@ -21,17 +31,6 @@ std::string hint_of(const Preset& preset) {
   return text;
 }
 
-Material with_preset(const Material& material, const Preset& preset) {
-  Material result = preset.material;
-  result.density = material.density;
-  if (!find_law(result.law)->has_fibre) return result;
-  if (!material.fibre.isZero()) result.fibre = material.fibre;
-  result.fibre_field = material.fibre_field;
-  return result;
-}
-
-}  // namespace
-
 bool choose_tissue(Rows& rows, Material& material) {
   if (presets().empty()) return false;
   std::vector<std::string> titles, hints;
@@ -39,14 +38,14 @@ bool choose_tissue(Rows& rows, Material& material) {
   int chosen = now ? static_cast<int>(now - presets().data()) : -1;
   for (const Preset& preset : presets()) {
     titles.push_back(preset.title);
-    hints.push_back(hint_of(preset));
+    hints.push_back(tissue_hint(preset));
   }
   const bool changed =
       rows.choice({"Tissue", "Tissue preset: law and parameters from the literature. –: custom parameters."}, chosen,
                   titles, hints);
   if (changed) material = with_preset(material, presets()[static_cast<std::size_t>(chosen)]);
   if (const Preset* preset = preset_of(material))
-    rows.value({"Source", hint_of(*preset)},
+    rows.value({"Source", tissue_hint(*preset)},
                fmt::format("{}, {}", short_text(preset->source), preset->verified ? "verified" : "not verified"), 0,
                preset->verified ? colours::text : colours::warning);
   return changed;

@@ -14,7 +14,7 @@ namespace heml::window {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t max_recent_files = 20, max_scenes_with_views = 100;
+constexpr std::size_t max_recent_files = 20, max_scenes_with_views = 100, max_folded_meshes = 100;
 
 /// A file of the state folder; empty: there is none.
 fs::path state_file(const char* name) {
@@ -24,6 +24,7 @@ fs::path state_file(const char* name) {
 
 /// The list of recent files, one path per line.
 fs::path list_file() { return state_file("recent"); }
+fs::path folded_file() { return state_file("folded-meshes"); }
 fs::path preferences_file() { return state_file("panel"); }
 fs::path views_file() { return state_file("views"); }
 
@@ -78,6 +79,28 @@ void write_optional(const fs::path& file, const std::string& text) {
   }
 }
 
+/// One path per line.
+std::vector<fs::path> read_paths(const fs::path& list, std::size_t most) {
+  std::vector<fs::path> files;
+  std::ifstream lines(list);
+  for (std::string line; files.size() < most && std::getline(lines, line);)
+    if (!line.empty()) files.emplace_back(line);
+  return files;
+}
+
+/// Puts a file first in a list, or takes it out.
+void update_paths(const fs::path& list, const fs::path& path, bool is_in, std::size_t most) {
+  const fs::path whole = whole_path(path);
+  if (list.empty() || whole.empty()) return;
+  std::vector<fs::path> files = read_paths(list, most);
+  std::erase(files, whole);
+  if (is_in) files.insert(files.begin(), whole);
+  files.resize(std::min(files.size(), most));
+  std::string text;
+  for (const fs::path& file : files) text += file.string() + '\n';
+  write_optional(list, text);
+}
+
 }  // namespace
 
 fs::path state_folder() {
@@ -86,24 +109,17 @@ fs::path state_folder() {
   return home && *home ? fs::path(home) / ".local" / "state" / "heml" : fs::path();
 }
 
-std::vector<fs::path> recent_files() {
-  std::vector<fs::path> files;
-  std::ifstream list(list_file());
-  for (std::string line; files.size() < max_recent_files && std::getline(list, line);)
-    if (!line.empty()) files.emplace_back(line);
-  return files;
+std::vector<fs::path> recent_files() { return read_paths(list_file(), max_recent_files); }
+
+void remember_file(const fs::path& path) { update_paths(list_file(), path, true, max_recent_files); }
+
+bool is_mesh_folded(const fs::path& mesh) {
+  const std::vector<fs::path> folded = read_paths(folded_file(), max_folded_meshes);
+  return std::find(folded.begin(), folded.end(), fs::path(whole_path(mesh))) != folded.end();
 }
 
-void remember_file(const fs::path& path) {
-  const fs::path list = list_file(), whole = whole_path(path);
-  if (list.empty() || whole.empty()) return;
-  std::vector<fs::path> files = recent_files();
-  std::erase(files, whole);
-  files.insert(files.begin(), whole);
-  files.resize(std::min(files.size(), max_recent_files));
-  std::string text;
-  for (const fs::path& file : files) text += file.string() + '\n';
-  write_optional(list, text);
+void remember_mesh_folded(const fs::path& mesh, bool folded) {
+  update_paths(folded_file(), mesh, folded, max_folded_meshes);
 }
 
 panel::CameraController::SavedViews saved_views(const fs::path& scene) {

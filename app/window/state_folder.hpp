@@ -17,6 +17,11 @@ std::vector<std::filesystem::path> recent_files();
 /// Puts a file first in that list. Does nothing if the list cannot be written.
 void remember_file(const std::filesystem::path& path);
 
+/// Whether the section of a bare mesh was folded away for this file.
+bool is_mesh_folded(const std::filesystem::path& mesh);
+/// Remembers it, with the 100 files before. Does nothing if that cannot be written.
+void remember_mesh_folded(const std::filesystem::path& mesh, bool folded);
+
 /// The camera views saved with a scene file; none where nothing was written or can be read.
 panel::CameraController::SavedViews saved_views(const std::filesystem::path& scene);
 /// Writes them, with those of the 100 scenes written before. Does nothing if they cannot be written, or without a file.

@@ -49,6 +49,7 @@ void Viewer::adopt(OpenScene opened) {
   panel_->measure() = measure;
   panel_->set_preferences(preferences_);
   panel_->set_findings(open_.findings);
+  show_mesh();
   next_event_ = 0;
   update_title();
   if (open_.resumed) return;
@@ -163,7 +164,20 @@ void Viewer::draw_interface(float seconds) {
   carry_out(actions);
 }
 
+/// What the panel is to know of a bare mesh.
+void Viewer::show_mesh() {
+  if (!open_.scene.chosen) return openings_.clear();
+  openings_.adopt(open_.scene.file, open_.scene.chosen->given);
+  mesh_folded_ = is_mesh_folded(open_.scene.file);
+  panel_->mesh().set_openings(openings_);
+  panel_->mesh().set_open(!mesh_folded_);
+}
+
 void Viewer::remember_preferences() {
+  if (open_.scene.chosen && mesh_folded_ == panel_->mesh().is_open()) {
+    mesh_folded_ = !mesh_folded_;
+    remember_mesh_folded(open_.scene.file, mesh_folded_);
+  }
   panel::Preferences now = panel_->preferences();
   now.window = options_.size ? preferences_.window : window_.window_size();
   if (now == preferences_) return;

@@ -84,6 +84,7 @@ class Viewer final : public WindowEvents {
   float interface_scale() const;
   void draw_interface(float seconds);
   void remember_preferences();
+  void show_mesh();
   void draw_marks();
   std::optional<render::Hit> hovered() const;
   bool is_on_clamp() const;           ///< the mouse
@@ -156,6 +157,8 @@ class Viewer final : public WindowEvents {
   std::optional<int> shown_progress_;              ///< of session_loader_, %
   std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
   std::optional<panel::Panel> panel_;
+  panel::MeshOpenings openings_;  ///< of the bare mesh that is open
+  bool mesh_folded_ = false;      ///< its section is
   const Frame* frame_ = nullptr;
   const Frame* live_ = nullptr;  ///< the engine's newest, while frame_ may be a past one
 

@@ -53,6 +53,7 @@ void Viewer::save_scene() {
     write_regions(scene);
     write_file(path, scene_text(scene, std::filesystem::current_path()));
     unsaved_.scene_saved();
+    panel_->mesh().set_kept(path);
     notify_saved("Saved " + path.string(), path.parent_path());
   } catch (const InputError& error) {
     panel_->notify(error.what());

@@ -81,6 +81,11 @@ class Organs(ProgramCase):
         self.assertEqual(block["chosen"]["young"], 1e4)
         self.assertIsNone(block["chosen"]["budget_iterations"])
         self.assertEqual(slivers["chosen"]["integrator"], "backward_euler")
+        self.assertEqual(block["chosen"]["findings"], [])
+        self.assertEqual([(found["count"], found["found"], found["mended"]) for found in slivers["chosen"]["findings"]],
+                         [(2240, "slivers", False)])
+        self.assertEqual((slivers["chosen"]["read_tets"], slivers["chosen"]["tets"]), (2560, 2560))
+        self.assertLess(slivers["chosen"]["min_dihedral"], 5)
         self.assertGreaterEqual(slivers["chosen"]["rate"], 10)
         self.assertGreaterEqual(slivers["chosen"]["budget_iterations"], 1)
 

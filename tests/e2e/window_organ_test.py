@@ -1,8 +1,10 @@
-"""A mesh of one's own in the window: it is alive at once, and a slow body is cured by the button of its banner."""
+"""A mesh of one's own in the window: it is alive at once, what was guessed is changed beside it, undone and kept, and a
+slow body is cured by the button of its banner."""
 import json
 import unittest
 
 from organ_test import SHAPES, medit
+from program import heml
 from window_case import WindowCase
 
 
@@ -57,6 +59,89 @@ class Organs(WindowCase):
         self.assertEqual(before["mesh"]["file"], after["mesh"]["file"])
         saved, = self.folder.glob("heml-organ-*.json")
         self.assertEqual(json.loads(saved.read_text())["mesh"]["scale"], 0.01)
+
+    # In the section "This mesh", from the top.
+    LENGTH, TISSUE, FINENESS, KEEP, CLOSE = (190, 167), (190, 245), (190, 271), (60, 336), (150, 336)
+
+    def begin_organ(self, *options):
+        self.open_display(1280, 720)
+        mesh = self.folder / "organ.mesh"
+        mesh.write_text(medit(*SHAPES["millimetres"]))
+        self.begin(mesh, "--size", "1280x720", *options)
+        return mesh
+
+    def press(self, place):
+        self.do("mousemove", *place, "click", 1)
+
+    def wait_for_opening(self, number):
+        file = f"out-{number}.jsonl"
+        self.wait_for(f"opening {number}", lambda: self.name_in(file) == "organ")
+        self.settle()
+        return self.scene_in(file)
+
+    def test_a_length_is_typed_undone_redone_and_kept_in_a_complete_scene(self):
+        mesh = self.begin_organ("--record", "out.jsonl")
+        self.press(self.LENGTH)
+        self.do("key", "ctrl+a")
+        self.do("type", "30")
+        self.do("key", "Return")
+        self.assertAlmostEqual(self.wait_for_opening(2)["mesh"]["scale"], 0.002)
+        self.do("key", "ctrl+z")
+        self.assertEqual(self.wait_for_opening(3)["mesh"]["scale"], 0.001)
+        self.do("key", "ctrl+shift+z")
+        self.assertAlmostEqual(self.wait_for_opening(4)["mesh"]["scale"], 0.002)
+        self.press(self.KEEP)
+        self.wait_for("a scene", lambda: list(self.folder.glob("heml-organ-*.json")))
+        self.quit()
+        kept, = self.folder.glob("heml-organ-*.json")
+        scene = json.loads(kept.read_text())
+        self.assertAlmostEqual(scene["mesh"]["scale"], 0.002)
+        self.assertEqual((self.folder / scene["mesh"]["file"]).resolve(), mesh.resolve())
+        done = heml("solve", kept, "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_tissue_and_fineness_open_the_mesh_again_and_undo_goes_back_one_by_one(self):
+        self.begin_organ("--record", "out.jsonl")
+        self.press(self.TISSUE)
+        self.press((180, 300))  # the second entry: a preset
+        tissue = self.wait_for_opening(2)
+        self.press(self.FINENESS)
+        self.press((180, 300))
+        fine = self.wait_for_opening(3)
+        self.do("key", "ctrl+z", "sleep", 0.1)
+        back = self.wait_for_opening(4)
+        self.do("key", "ctrl+z")
+        first = self.wait_for_opening(5)
+        self.quit()
+        guessed = self.scene_in("out.jsonl")
+        self.assertNotEqual(tissue["materials"], guessed["materials"])
+        self.assertNotIn("tets", tissue["mesh"])
+        self.assertEqual(fine["materials"], tissue["materials"])
+        self.assertIn("tets", fine["mesh"])
+        self.assertNotEqual(fine["recorded"]["tets"], tissue["recorded"]["tets"])
+        for scene, same in ((back, tissue), (first, guessed)):
+            self.assertEqual(scene["materials"], same["materials"])
+            self.assertEqual(scene["mesh"], same["mesh"])
+        self.verify("out-3.jsonl")
+
+    def test_the_section_is_closed_for_this_file_also_at_the_next_start(self):
+        mesh = self.begin_organ()
+        before = self.display.picture()
+        self.press(self.CLOSE)
+        self.do("mousemove", 640, 700)
+        self.assertGreater(self.display.picture().change(before, 10, 280), 4)
+        self.quit()
+        folded = self.folder / "state" / "heml" / "folded-meshes"
+        self.assertEqual(folded.read_text(), f"{mesh}\n")
+        other = self.folder / "other.mesh"
+        other.write_text(mesh.read_text())
+        for file, opens in ((mesh, False), (other, True)):
+            self.begin(file, "--record", f"{file.stem}.jsonl", "--size", "1280x720")
+            self.press((200, 141))
+            self.press((180, 170))
+            self.play(3)
+            self.assertEqual((self.folder / f"{file.stem}-2.jsonl").exists(), opens)
+            self.quit()
 
     def test_the_button_of_a_slow_body_s_banner_changes_its_method(self):
         self.open_display(1280, 720)

@@ -90,11 +90,11 @@ void check_intersections(TriangleMesh& surface) {
   const Intersections found = self_intersections(surface);
   if (found.pairs == 0 || untangle(surface, found)) return;
   const Triangle& first = surface.triangles[found.first];
-  throw InputError(
-      surface.source, triangle_place(found.first),
+  const std::string problem =
       fmt::format("meets triangle {} near {}; the surface runs through itself in {}{} pairs of triangles", found.second,
-                  shown(surface.nodes[first[0]]), found.pairs >= max_pairs ? "at least " : "", found.pairs),
-      "separate or unite the parts");
+                  shown(surface.nodes[first[0]]), found.pairs >= max_pairs ? "at least " : "", found.pairs);
+  throw SelfIntersection(
+      InputError(surface.source, triangle_place(found.first), problem, "separate or unite the parts"), found.pairs);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 // Self-intersections of a surface.
 #include <cstddef>
+#include <heml/base/error.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
 
@@ -12,6 +13,16 @@ struct Intersections {
   std::vector<int> triangles;   ///< all triangles in a pair, ascending
 };
 inline constexpr std::size_t max_pairs = 10'000;
+
+/// What check_surface() throws for a surface that runs through itself.
+class SelfIntersection : public InputError {
+ public:
+  SelfIntersection(const InputError& error, std::size_t pairs) : InputError(error), pairs_(pairs) {}
+  std::size_t pairs() const { return pairs_; }  ///< Intersections::pairs
+
+ private:
+  std::size_t pairs_;
+};
 
 /// Finds pairs of triangles that cross, overlap or touch outside the nodes and edges they share. Requires triangles of
 /// nonzero area and at most two per edge. Cases that round-off leaves undecided count as touching. Uses a tree of

@@ -36,6 +36,8 @@ struct BareMeshOptions {
   std::optional<LengthUnit> unit;
   std::optional<UpAxis> up;
   std::optional<SupportKind> supports;
+  std::optional<std::string> tissue = {};  ///< name of a preset (presets.hpp)
+  std::optional<int> tets = {};            ///< wanted number of tetrahedra, whose shapes are improved; from 1
   bool operator==(const BareMeshOptions&) const = default;
 };
 

@@ -7,16 +7,15 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/warning_collector.hpp>
-#include <heml/mesh/labels/label_map.hpp>
-#include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/bare_mesh.hpp>
 #include <heml/scenario/body_shape.hpp>
-#include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/placement.hpp>
+#include <heml/scenario/presets.hpp>
 #include <heml/scenario/selection.hpp>
 #include <heml/scenario/suitable_method.hpp>
+#include <heml/scenario/take_mesh.hpp>
 #include <set>
 
 namespace heml {
@@ -24,39 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double wanted_tets = 1000;      // by volume, when filling a surface; its kept triangles may lead to more
-constexpr int label_tets = 10000;         // of a label map: in real time on one core
 constexpr double supported_share = 0.12;  // of the surface
 constexpr double table_friction = 0.5;
 constexpr double max_stretch = 1.5;  // of a body under its own weight
 constexpr double tissue_poisson = 0.45, tissue_density = 1000;
 constexpr double mass_damping = 1;  // 1/s
-
-double volume_of(const TriangleMesh& surface, const Vec3& inside) {
-  double volume = 0;
-  for (const Triangle& t : surface.triangles)
-    volume += signed_volume(inside, surface.nodes[t[0]], surface.nodes[t[1]], surface.nodes[t[2]]);
-  return std::abs(volume);
-}
-
-/// Names the file as the scene's mesh and reads it.
-void take_mesh(Scene& scene, const fs::path& path) {
-  if (is_tet_mesh_file(path)) {
-    scene.mesh.file = path;
-  } else if (is_label_map_file(path)) {
-    scene.mesh.labels = path;
-    scene.mesh.label_tets = label_tets;
-  } else {
-    scene.mesh.surface = path;
-    const MendedSurface mended = mend_surface(read_surface(path));
-    const TriangleMesh& surface = mended.surface;
-    if (mended.report.unmended.empty())
-      scene.mesh.max_volume = volume_of(surface, bounds_of(surface.nodes).first) / wanted_tets;
-    scene.mesh.source = std::make_shared<const TetMesh>(filled_surface(scene, mended));
-    return;
-  }
-  scene.mesh.source = std::make_shared<const TetMesh>(read_mesh_source(scene));
-}
 
 /// Adds a choice and tells it: one that changes what the file says, or what is usual, as a warning.
 void tell(Scene& scene, bool as_warning, const char* about, std::string text) {
@@ -66,6 +37,14 @@ void tell(Scene& scene, bool as_warning, const char* about, std::string text) {
   else
     log_info("{}", line);
   scene.chosen->texts.push_back({about, std::move(text)});
+}
+
+void tell_fineness(Scene& scene) {
+  const BareMeshChoices& chosen = *scene.chosen;
+  if (!chosen.given.tets) return;
+  tell(scene, false, "fineness",
+       fmt::format("{} tetrahedra where {} are wanted, as chosen; the smallest dihedral angle is {:.3g}°", chosen.tets,
+                   *chosen.given.tets, chosen.min_dihedral));
 }
 
 void choose_unit(Scene& scene, double length) {
@@ -146,6 +125,7 @@ Material tissue_of(double young) {
 
 /// Whether a mesh file brings mid-edge nodes, whose places would change with the element.
 bool brings_midedges(const Scene& scene) {
+  if (scene.mesh.tets) return false;  // improved elements are straight
   MidEdges midedges;
   const WarningCollector warnings;  // the mesh has been read, and they have been told
   if (!scene.mesh.file.empty()) read_tet_mesh(scene.mesh.file, &midedges);
@@ -164,10 +144,34 @@ void choose_element(Scene& scene, const TetMesh& mesh) {
        "quadratic elements (p2), which err several times less than linear ones and are fast enough here");
 }
 
+/// Returns the trial run of a preset.
+TrialRun take_preset(Scene& scene, const TetMesh& mesh, const std::string& name) {
+  BareMeshChoices& chosen = *scene.chosen;
+  const Preset* preset = find_preset(name);
+  if (!preset)
+    throw InputError(scene.file, "tissue", fmt::format("there is no preset '{}'", name),
+                     "a file of assets/materials, without .json");
+  Material tissue = preset->material;
+  tissue.density = chosen.density = tissue_density;
+  const auto [shear, bulk] = small_strain_moduli(tissue);
+  chosen.young = 9 * bulk * shear / (3 * bulk + shear);
+  chosen.poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
+  scene.materials = {{std::nullopt, tissue}};
+  TrialRun run = try_tissue(load_setup(scene, mesh));
+  chosen.stretch = run.stretch;
+  const bool is_soft = run.stretch > max_stretch;
+  tell(scene, is_soft, "tissue",
+       fmt::format("{}, as chosen: {}", preset->title,
+                   std::isfinite(run.stretch) ? fmt::format("stretches to {:.3g} at most under its weight", run.stretch)
+                                              : std::string("does not hold under its weight")));
+  return run;
+}
+
 /// Returns the trial run of the tissue chosen. Linear elements go first: they are fast, and what is too soft with them
 /// is so with quadratic ones, which bend more.
 TrialRun choose_tissue(Scene& scene, const TetMesh& mesh) {
   BareMeshChoices& chosen = *scene.chosen;
+  if (chosen.given.tissue) return take_preset(scene, mesh, *chosen.given.tissue);
   chosen.poisson = tissue_poisson;
   chosen.density = tissue_density;
   TrialRun run;
@@ -238,6 +242,7 @@ Scene scene_around(const fs::path& path, const BareMeshOptions& options) {
     take_mesh(scene, path);
     for (const std::string& text : warnings.texts()) scene.chosen->texts.push_back({"mesh", text});
   }
+  tell_fineness(scene);
   TetMesh mesh = placed_mesh(scene);
   choose_unit(scene, shape_of(mesh).size().maxCoeff());
   choose_up(scene, mesh);

@@ -6,6 +6,7 @@
 #include <heml/base/hash.hpp>
 #include <heml/base/log.hpp>
 #include <heml/mesh/generate.hpp>
+#include <heml/mesh/improve/improve.hpp>
 #include <heml/mesh/labels/mesh_labels.hpp>
 #include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/quality.hpp>
@@ -65,6 +66,13 @@ TetMesh meshed_labels(const Scene& scene) {
 
 }  // namespace
 
+TetMesh with_wanted_tets(const Scene& scene, TetMesh mesh) {
+  if (!scene.mesh.tets) return mesh;
+  ImproveOptions options;
+  options.tets = scene.mesh.tets;
+  return improve(std::move(mesh), options).mesh;
+}
+
 fs::path asset_mesh_file(const std::string& name) { return assets_folder() / "meshes" / (name + ".mesh"); }
 
 TetMesh filled_surface(const Scene& scene, const MendedSurface& surface) {
@@ -104,11 +112,14 @@ MeshFingerprint mesh_fingerprint(const TetMesh& mesh) {
 }
 
 TetMesh read_mesh_source(const Scene& scene, MidEdges* midedges) {
-  if (!scene.solver.quadratic) midedges = nullptr;
+  if (!scene.solver.quadratic || scene.mesh.tets) midedges = nullptr;  // improved elements are straight
   if (scene.mesh.source) return *scene.mesh.source;
-  if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file), midedges);
-  if (!scene.mesh.surface.empty())
-    return filled_surface(scene, mend_surface(read_surface(find_file(scene, "mesh.surface", scene.mesh.surface))));
+  if (!scene.mesh.file.empty())
+    return with_wanted_tets(scene, read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file), midedges));
+  if (!scene.mesh.surface.empty()) {
+    const MendedSurface mended = mend_surface(read_surface(find_file(scene, "mesh.surface", scene.mesh.surface)));
+    return with_wanted_tets(scene, filled_surface(scene, mended));
+  }
   if (!scene.mesh.labels.empty()) return meshed_labels(scene);
   if (scene.mesh.box) return make_box(scene.mesh.box->size, scene.mesh.box->cells, scene.mesh.box->origin);
   return asset_mesh(scene, midedges);

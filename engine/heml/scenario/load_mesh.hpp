@@ -7,11 +7,14 @@ namespace heml {
 
 struct MendedSurface;
 
-/// Reads or generates the mesh as its source has it, unchecked. midedges: those of a file of ten-node tetrahedra; null:
-/// they are left out with a warning. Throws InputError.
+/// Reads or generates the mesh as its source has it, unchecked, with the wanted number of tetrahedra. midedges: those
+/// of a file of ten-node tetrahedra; null: they are left out with a warning. Throws InputError.
 TetMesh read_mesh_source(const Scene& scene, MidEdges* midedges = nullptr);
 
-/// Fills a surface as the scene wants its tetrahedra, in the file's units.
+/// The mesh improved to the number of tetrahedra that the scene wants, if it wants one. Throws InputError as improve().
+TetMesh with_wanted_tets(const Scene& scene, TetMesh mesh);
+
+/// Fills a surface by mesh.tetgen, in the file's units.
 TetMesh filled_surface(const Scene& scene, const MendedSurface& surface);
 
 /// Reads or generates the mesh, scales, rotates and translates it (vector fields are rotated too), and checks it;

@@ -80,8 +80,12 @@ MeshSpec mesh_from(const JsonCursor& key, const std::filesystem::path& folder) {
     read_tetgen(*tetgen, mesh);
   }
   if (const auto tets = object.find("tets")) {
-    if (kind != "labels") tets->fail("goes with a label map", "take it away, or give mesh.labels");
-    object.read("tets", mesh.label_tets);
+    if (kind == "box" || kind == "asset")
+      tets->fail("goes with a file, a surface or a label map", "take it away, or give mesh.file");
+    if (kind == "labels")
+      object.read("tets", mesh.label_tets);
+    else
+      object.read("tets", mesh.tets);
   }
   object.read("scale", mesh.scale);
   if (const auto rotate = object.find("rotate"))
@@ -108,6 +112,7 @@ Json mesh_json(const MeshSpec& mesh, const std::filesystem::path& folder) {
   } else {
     json["asset"] = mesh.asset;
   }
+  if (mesh.tets) json["tets"] = *mesh.tets;
   json["scale"] = mesh.scale;
   json["rotate"] = rotation_json(mesh.rotate_axis, mesh.rotate_origin, mesh.rotate_degrees);
   json["translate"] = vector_json(mesh.translate);

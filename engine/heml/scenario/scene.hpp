@@ -42,6 +42,7 @@ struct MeshSpec {
   std::filesystem::path surface;  ///< closed surface for TetGen
   std::filesystem::path labels;   ///< label map of a scan
   int label_tets = 20000;         ///< wanted of a label map, before `scale`
+  std::optional<int> tets;        ///< wanted of a file or surface, whose shapes are improved too; none: as it is
   double radius_edge_ratio = 1.4;
   std::optional<double> max_volume;  ///< m³, of one tetrahedron of the scaled body
   std::optional<Box> box;
@@ -130,8 +131,16 @@ struct MeshFingerprint {
 /// What scene_around() chose for a bare mesh (bare_mesh.hpp), and why.
 struct BareMeshChoices {
   struct Text {
-    std::string about;  ///< unit, up, supports, element, tissue, method
+    std::string about;  ///< mesh, fineness, unit, up, supports, element, tissue, method
     std::string text;
+  };
+  /// Something wrong with the mesh as it was read, and what became of it (mesh_findings.hpp).
+  struct Finding {
+    int count = 0;
+    std::string found;        ///< of what: "slivers"
+    std::string done;         ///< "closed"; "kept"
+    bool is_mended = false;   ///< the body that is simulated does not have it
+    std::string detail = {};  ///< a sentence more; may be empty
   };
   BareMeshOptions given;  ///< what was given; the rest was guessed
   std::string unit;       ///< LengthUnit::name
@@ -140,6 +149,9 @@ struct BareMeshChoices {
   UpAxis up = UpAxis::y;
   SupportKind supports = SupportKind::underside;
   double supported_area = 0;  ///< share of the surface that is held
+  int read_tets = 0, tets = 0;  ///< as read or filled, and of the body: given.tets
+  double min_dihedral = 0;      ///< degrees, of the body
+  std::vector<Finding> findings;
   double young = 0, poisson = 0, density = 0;
   double stretch = 0;  ///< largest of the body under its weight, means at nodes
   double load = 0;     ///< computing time on one core over simulated time, by the cost model

@@ -76,7 +76,9 @@ inline constexpr KeyInfo mesh[] = {
     {"tetgen", object, "", "`{}`", "how a surface is filled"},
     {"labels", form::text, "", one_mesh,
      "label map of a scan, a region a label: `.nii`, `.nii.gz`, `.nrrd`, `.nhdr`, `.mha`, `.mhd`"},
-    {"tets", form::whole(1, 10'000'000), "", "20000", "wanted of a label map, met within a quarter"},
+    {"tets", form::whole(1, 10'000'000), "", "of a label map 20000, else none",
+     "wanted number of tetrahedra, met within a quarter where the surface allows; a `file` or `surface` gets better "
+     "shapes too (`heml mesh --improve --tets`)"},
     {"box", object, "", one_mesh, "cells of 5 tetrahedra; nodes are numbered along x, then y, then z"},
     {"asset", form::text, "", one_mesh, "a mesh that comes with the program: `\"kidney\"`"},
     {"scale", form::positive, "", "", "multiplies coordinates; before `rotate` and `translate`"},

@@ -40,6 +40,23 @@ TEST_CASE("camera views are kept by the scene's file") {
   CHECK(saved_views("") == Views{});
 }
 
+TEST_CASE("a mesh whose section was folded away is remembered by its file alone") {
+  const StateFolder state;
+  CHECK_FALSE(is_mesh_folded("a.mesh"));
+  remember_mesh_folded("a.mesh", true);
+  CHECK(is_mesh_folded("a.mesh"));
+  CHECK(is_mesh_folded(fs::current_path() / "a.mesh"));
+  CHECK_FALSE(is_mesh_folded("b.mesh"));
+  CHECK_FALSE(is_mesh_folded(""));
+  remember_mesh_folded("b.mesh", true);
+  remember_mesh_folded("a.mesh", false);
+  CHECK_FALSE(is_mesh_folded("a.mesh"));
+  CHECK(is_mesh_folded("b.mesh"));
+  for (int k = 0; k < 100; ++k) remember_mesh_folded("mesh" + std::to_string(k), true);
+  CHECK_FALSE(is_mesh_folded("b.mesh"));
+  CHECK(is_mesh_folded("mesh0"));
+}
+
 TEST_CASE("views of a hundred scenes are kept, those written last") {
   const StateFolder state;
   for (int k = 0; k <= 100; ++k) remember_views("scene" + std::to_string(k), views_of(1));

@@ -29,6 +29,16 @@ inline TriangleMesh cube(double size, const Vec3& centre) {
   return box_surface(Vec3::Constant(size), 2, centre - Vec3::Constant(size / 2));
 }
 
+/// A box with a dent in its top; the adjacent node is pushed through a wall of the dent.
+inline TriangleMesh creased_box() {
+  TriangleMesh surface = box_surface(Vec3(1, 1, 1), 12);
+  for (Vec3& x : surface.nodes) {
+    if ((x - Vec3(0.5, 0.5, 1)).norm() < 1e-9) x += Vec3(0.14, 0.01, -0.05);
+    if ((x - Vec3(7.0 / 12, 0.5, 1)).norm() < 1e-9) x += Vec3(0, 0, -0.1);
+  }
+  return surface;
+}
+
 inline TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
   const int first = static_cast<int>(a.nodes.size());
   a.nodes.insert(a.nodes.end(), b.nodes.begin(), b.nodes.end());

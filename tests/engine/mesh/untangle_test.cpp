@@ -6,18 +6,6 @@
 
 namespace heml::untangle_test {
 
-namespace {
-// A box with a dent in its top; the adjacent node is pushed through a wall of the dent.
-TriangleMesh creased_box() {
-  TriangleMesh surface = box_surface(Vec3(1, 1, 1), 12);
-  for (Vec3& x : surface.nodes) {
-    if ((x - Vec3(0.5, 0.5, 1)).norm() < 1e-9) x += Vec3(0.14, 0.01, -0.05);
-    if ((x - Vec3(7.0 / 12, 0.5, 1)).norm() < 1e-9) x += Vec3(0, 0, -0.1);
-  }
-  return surface;
-}
-}  // namespace
-
 TEST_CASE("smooths a crease apart and leaves all nodes away from it as they were") {
   TriangleMesh surface = creased_box();
   const TriangleMesh before = surface;

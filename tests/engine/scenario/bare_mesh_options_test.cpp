@@ -4,6 +4,7 @@
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/write.hpp>
 #include <heml/scenario/body_shape.hpp>
+#include <heml/scenario/presets.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/selection.hpp>
 
@@ -117,6 +118,33 @@ TEST_CASE("a body on a table is held nowhere and stays on it") {
   CHECK(low.y() < 0.5005);
   CHECK(high.y() > 0.55);
   CHECK(std::abs(low.x()) < 0.01);
+}
+
+TEST_CASE("a tissue that is given is the preset's, and the method is chosen for it") {
+  const TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {4, 4, 4});
+  const Scene guessed = scene_of(mesh, {});
+  for (const Preset& preset : presets()) {
+    CAPTURE(preset.name);
+    BareMeshOptions options;
+    options.tissue = preset.name;
+    const Scene scene = scene_of(mesh, options);
+    REQUIRE(scene.materials.size() == 1);
+    CHECK(preset_of(scene.materials[0].material) == &preset);
+    CHECK(scene.materials[0].material.density == 1000);
+    CHECK(text_about(scene, "tissue").starts_with(preset.title + ", as chosen"));
+    CHECK(scene.chosen->load <= 0.7);
+    const SmallStrainModuli rest = small_strain_moduli(scene.materials[0].material);
+    CHECK(scene.chosen->young / (2 * (1 + scene.chosen->poisson)) == doctest::Approx(rest.shear).epsilon(1e-9));
+    CHECK(parse_scene(scene_text(scene), "saved.json").materials[0].material == scene.materials[0].material);
+  }
+  CHECK(preset_of(guessed.materials[0].material) == nullptr);
+}
+
+TEST_CASE("a tissue that there is not is refused by its name") {
+  BareMeshOptions options;
+  options.tissue = "cheese";
+  const std::string problem = refusal([&] { scene_of(make_box(Vec3(1, 1, 1), {1, 1, 1}), options); });
+  CHECK(problem.find("cheese") != std::string::npos);
 }
 
 TEST_CASE("what is given as it would be guessed makes the same scene") {

@@ -75,6 +75,10 @@ void orient_part(TetMesh& mesh, int first, const std::vector<std::vector<Oriente
                          "the elements form no body");
       }
     }
+  if (std::all_of(part.begin(), part.end(), [&](int t) { return neighbours[t].size() == 4; }))
+    throw InputError(mesh.source, fmt::format("element {}", first),
+                     fmt::format("is of a part of {} elements without a surface: they overlap", part.size()),
+                     "remove elements that are given twice or overlap");
   double volume = 0;
   for (const int t : part) volume += turn[t] * volume_of(mesh, t);
   for (const int t : part)

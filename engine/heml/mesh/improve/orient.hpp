@@ -8,7 +8,8 @@ namespace heml {
 
 /// Orders the nodes of every element so that neighbours see their common face from opposite sides and the volume of
 /// each connected part is positive. Returns the elements that are inverted or flat, ascending. Throws InputError for
-/// faces of more than two elements and parts that cannot be oriented. Requires check_connectivity().
+/// faces of more than two elements and parts that cannot be oriented or have no boundary. Requires
+/// check_connectivity().
 std::vector<int> orient_elements(TetMesh& mesh);
 
 }  // namespace heml

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/intersections.hpp>
 #include <heml/mesh/mend/clean_triangles.hpp>
 #include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/mend/remesh.hpp>
@@ -62,16 +63,20 @@ class Turns {
 };
 
 /// What check_surface() finds wrong, without the file and the remedy; empty: nothing, and the surface is as it leaves
-/// it.
-std::string problem_of(TriangleMesh& surface) {
+/// it. Counts in the report what crosses.
+std::string problem_of(TriangleMesh& surface, MendReport& report) {
   TriangleMesh checked = surface;
+  report.crossings = 0;
   try {
     check_surface(checked);
   } catch (const InputError& error) {
+    if (const auto* crossing = dynamic_cast<const SelfIntersection*>(&error))
+      report.crossings = static_cast<int>(crossing->pairs());
     std::string text = error.what();
     if (text.starts_with(surface.source + ": ")) text.erase(0, surface.source.size() + 2);
     return text.substr(0, text.rfind(" ("));
   }
+  if (checked.nodes != surface.nodes) report.smoothed = static_cast<int>(self_intersections(surface).pairs);
   surface = std::move(checked);
   return "";
 }
@@ -159,7 +164,7 @@ MendedSurface mend_surface(TriangleMesh surface) {
   check_numbers(surface);
   const Turns before(surface);
   MendedSurface mended{std::move(surface), {}};
-  if (const std::string problem = problem_of(mended.surface); !problem.empty()) {
+  if (const std::string problem = problem_of(mended.surface, mended.report); !problem.empty()) {
     if (mended.surface.triangles.size() > max_triangles)
       throw InputError(
           mended.surface.source, "",
@@ -167,7 +172,7 @@ MendedSurface mend_surface(TriangleMesh surface) {
           fmt::format("{} triangles at most", max_triangles));
     clean(mended.surface, mended.report);
     close_holes(mended.surface, mended.report);
-    mended.report.unmended = problem_of(mended.surface);
+    mended.report.unmended = problem_of(mended.surface, mended.report);
     if (mended.report.unmended.empty())
       expect_volume(mended.surface);
     else

@@ -18,7 +18,9 @@ struct MendReport {
   RemovedParts crumbs, walls;
   FilledHoles holes;
   int turned = 0;        ///< triangles that were not turned outward
+  int smoothed = 0;      ///< pairs of triangles that crossed at creases, whose nodes were moved apart (untangle.hpp)
   std::string unmended;  ///< what is wrong still, so that the surface is meshed anew; else empty
+  int crossings = 0;     ///< pairs of triangles that cross in it, as far as they are counted (intersections.hpp)
 };
 
 struct MendedSurface {

@@ -32,4 +32,15 @@ TEST_CASE("a face of three elements is refused by number") {
                        InputError);
 }
 
+TEST_CASE("a part without a surface is refused, also beside a body") {
+  TetMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}},
+               {{0, 1, 2, 3}, {4, 5, 6, 7}, {4, 5, 6, 7}},
+               {0, 0, 0},
+               "twice.msh"};
+  CHECK_THROWS_WITH_AS(orient_elements(mesh),
+                       "twice.msh: element 1: is of a part of 2 elements without a surface: they overlap "
+                       "(remove elements that are given twice or overlap)",
+                       InputError);
+}
+
 }  // namespace heml::improve_orient_test

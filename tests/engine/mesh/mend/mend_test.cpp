@@ -220,11 +220,22 @@ TEST_CASE("a wall between two rooms and a fin are left out") {
   CHECK(mended_to(1, surface, 1e-12).walls.parts == 1);
 }
 
+TEST_CASE("what is smoothed apart at a crease is counted") {
+  const TriangleMesh creased = creased_box();
+  const MendReport report = mend_surface(creased).report;
+  CHECK(report.smoothed == static_cast<int>(self_intersections(creased).pairs));
+  CHECK(report.smoothed > 0);
+  CHECK(report.crossings == 0);
+  CHECK(report.unmended.empty());
+  CHECK(mend_surface(sphere()).report.smoothed == 0);
+}
+
 TEST_CASE("bodies that cross are united by meshing anew") {
   const double size = 1, overlap = 0.5 * 0.6 * 0.7;
   const TriangleMesh crossing = together(cube(size, {0, 0, 0}), cube(size, {0.5, 0.4, 0.3}));
   const MendedSurface mended = mend_surface(crossing);
   CHECK(says(mended.report.unmended, "meets triangle"));
+  CHECK(mended.report.crossings == static_cast<int>(self_intersections(crossing).pairs));
   const TetMesh mesh = tetrahedralize(mended);
   CHECK(volume_of(mesh) == doctest::Approx(2 - overlap).epsilon(0.03));
   CHECK(mesh.tets.size() < 15000);
