@@ -16,8 +16,9 @@ class MaterialSection {
   explicit MaterialSection(std::vector<RegionMaterial> materials, std::map<int, std::string> names = {})
       : materials_(std::move(materials)), names_(std::move(names)) {}
 
-  /// Adds one SetMaterial if the user changed the material, one SetActiveStress if its contraction, and material_problem() has no objection. stretched: share of
-  /// surface nodes stretched beyond the measured range of their tissue (stretch_monitor.hpp).
+  /// Adds one SetMaterial if the user changed the material, one SetActiveStress if its contraction, and
+  /// material_problem() has no objection. stretched: share of surface nodes stretched beyond the measured range of
+  /// their tissue (stretch_monitor.hpp).
   void draw(Rows& rows, double stretched, PanelActions& out);
 
   /// Updates the shown material after a command from elsewhere (a script).

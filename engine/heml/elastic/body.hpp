@@ -178,8 +178,8 @@ class ElasticBody {
   /// Replaces a material. Its elements lose their internal state and are taken as relaxed at x; those of other
   /// materials keep theirs. plastic_work() keeps the work done so far in all of them.
   void set_material(std::size_t index, const Material& material, const Real* x);
-  /// Sets the active stress of a material, Pa, which must have a fibre if it is not 0 (asserted). Its elements keep their
-  /// internal state.
+  /// Sets the active stress of a material, Pa, which must have a fibre if it is not 0 (asserted). Its elements keep
+  /// their internal state.
   void set_active_stress(std::size_t index, double stress);
   /// Sets the part of every active stress that acts: static worlds ramp it with their loads. 1 at the start.
   void set_activation(double part);

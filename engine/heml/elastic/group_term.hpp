@@ -96,8 +96,8 @@ void read_edge_stiffness(const Real* K, std::size_t s, Real k[edge_entries]) {
   for (std::size_t i = 0; i < edge_entries; ++i) k[i] = from[lanes * i];
 }
 
-/// The passive terms of a material that material_problem() accepts; none if its law is not a continuum. without_volume: the
-/// isochoric part alone (nodal_pressure.hpp evaluates the volume term).
+/// The passive terms of a material that material_problem() accepts; none if its law is not a continuum. without_volume:
+/// the isochoric part alone (nodal_pressure.hpp evaluates the volume term).
 template <class Real>
 std::vector<std::unique_ptr<GroupTerm<Real>>> make_terms(const Material& material, bool continuation,
                                                          bool without_volume);

@@ -106,8 +106,7 @@ std::optional<Problem> parameter_problem(const Material& material, const LawInfo
 /// The first problem of fibre, active stress, volume term, viscosity, relaxation or plasticity.
 std::optional<Problem> inelastic_problem(const Material& material, const LawInfo& law) {
   const double Ta = material.active_stress;
-  if (!(Ta >= 0) || !std::isfinite(Ta))
-    return Problem{"active_stress", fmt::format("must be 0 Pa or more, is {}", Ta)};
+  if (!(Ta >= 0) || !std::isfinite(Ta)) return Problem{"active_stress", fmt::format("must be 0 Pa or more, is {}", Ta)};
   if (Ta > 0 && !law.is_continuum) return Problem{"active_stress", fmt::format("the law '{}' has none", law.name)};
   const bool needs_fibre = law.has_fibre || Ta > 0 || !material.fibre.isZero(0);
   if (needs_fibre && material.fibre_field.empty() && !(std::abs(material.fibre.norm() - 1) < 1e-9))

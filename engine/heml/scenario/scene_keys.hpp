@@ -114,10 +114,11 @@ inline constexpr KeyInfo materials[] = {
     {"expression", form::text, "", "required by `energy`",
      "energy per unit rest volume, Pa, of [invariants and stretches](../../engine/docs/laws.md#energy)"},
     {"parameters", object, "", "`{}`", "a number for each other name in the expression"},
-    {"fibre", form::other("`[x, y, z]`, or `{\"field\": NAME}`"), "", "required by laws with fibres, and by `active_stress`",
-     "direction at rest, normalised when read"},
+    {"fibre", form::other("`[x, y, z]`, or `{\"field\": NAME}`"), "",
+     "required by laws with fibres, and by `active_stress`", "direction at rest, normalised when read"},
     {"active_stress", form::non_negative, "Pa", "0",
-     "of contracting muscle, Ta: second Piola-Kirchhoff stress Ta a0⊗a0 along `fibre`; static scenes ramp it with their "
+     "of contracting muscle, Ta: second Piola-Kirchhoff stress Ta a0⊗a0 along `fibre`; static scenes ramp it with "
+     "their "
      "loads; changed by the event `active_stress`"},
     {"volume_term", form::one_of(volume_term_names), "", "`\"quadratic\"`",
      "κ/2 (J−1)², κ/2 (ln J)² or κ/4 (J² − 1 − 2 ln J); laws with a volume term"},

@@ -162,11 +162,10 @@ struct Reset {
   bool scene = false;  ///< all else of the scene too: materials, regions, boundary, loads, gravity, method, tables
 };
 
-using Command =
-    std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
-                 WithdrawProbe, SutureTissue, CutSutures, SetMaterial, SetActiveStress, TagRegion, SetDamping, SetGravity,
-                 SetIntegrator, SetBudget, SetRate, SetStepCost, RemoveElements, CutTissue, CauterizeTissue, Undo, StepHistory,
-                 AdoptPreconditioner, Reset>;
+using Command = std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
+                             WithdrawProbe, SutureTissue, CutSutures, SetMaterial, SetActiveStress, TagRegion,
+                             SetDamping, SetGravity, SetIntegrator, SetBudget, SetRate, SetStepCost, RemoveElements,
+                             CutTissue, CauterizeTissue, Undo, StepHistory, AdoptPreconditioner, Reset>;
 
 /// Whether a kind of command changes the elements that there are, or takes such a change back.
 template <class C>

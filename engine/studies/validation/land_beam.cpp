@@ -30,8 +30,7 @@ Finding land_beam(const Trial& trial) {
   finding.curves.push_back({"consensus", true, {{500, consensus}, {2e4, consensus}}});
   for (const auto& [element, cells, limit, quick] : cases) {
     if (trial.quick && !quick) continue;
-    WorldSetup setup =
-        make_body(make_box(Vec3(length, width, width), {5 * cells, cells, cells}), element, muscle);
+    WorldSetup setup = make_body(make_box(Vec3(length, width, width), {5 * cells, cells, cells}), element, muscle);
     Boundary clamp;
     clamp.nodes = nodes_where(setup, [](const Vec3& X) { return X.x() < 1e-9; });
     setup.boundary = {clamp};

@@ -34,14 +34,15 @@ std::vector<double> active_forces(const TetMesh& mesh, const std::vector<double>
     const Tet& tet = mesh.tets[t];
     Mat3 Dm, Ds;
     for (int a = 0; a < 3; ++a) {
-      const auto n = static_cast<std::size_t>(tet[static_cast<std::size_t>(a) + 1]), o = static_cast<std::size_t>(tet[0]);
+      const auto n = static_cast<std::size_t>(tet[static_cast<std::size_t>(a) + 1]),
+                 o = static_cast<std::size_t>(tet[0]);
       Dm.col(a) = mesh.nodes[n] - mesh.nodes[o];
       for (int i = 0; i < 3; ++i)
         Ds(i, a) = x[3 * n + static_cast<std::size_t>(i)] - x[3 * o + static_cast<std::size_t>(i)];
     }
     const Vec3 a0 = fibres[t];
-    const Mat3 F = Ds * Dm.inverse(), H = -Dm.determinant() / 6 * stress * F * a0 * a0.transpose() *
-                                          Dm.inverse().transpose();
+    const Mat3 F = Ds * Dm.inverse(),
+               H = -Dm.determinant() / 6 * stress * F * a0 * a0.transpose() * Dm.inverse().transpose();
     for (int a = 0; a < 3; ++a)
       for (int i = 0; i < 3; ++i) {
         f[3 * static_cast<std::size_t>(tet[static_cast<std::size_t>(a) + 1]) + static_cast<std::size_t>(i)] += H(i, a);
@@ -72,8 +73,8 @@ TEST_CASE("active stress: what it adds to a law is Ta F a0 ⊗ a0, by every inst
     SmallBody small(random, 0.05);
     const double stress = 5e3;
     Material passive = muscle(law, 0);
-    const std::vector<double> expected = active_forces(
-        small.mesh, small.x, stress, std::vector<Vec3>(small.mesh.tets.size(), passive.fibre));
+    const std::vector<double> expected =
+        active_forces(small.mesh, small.x, stress, std::vector<Vec3>(small.mesh.tets.size(), passive.fibre));
     for (const InstructionSet isa : instruction_sets()) {
       std::vector<std::vector<double>> f;
       for (const double Ta : {0.0, stress}) {
@@ -129,12 +130,12 @@ TEST_CASE("active stress: the bound of the step is not below the largest eigenva
       unit[static_cast<std::size_t>(j)] = 1;
       body->force_differential(unit.data(), column.data(), team);
       for (Eigen::Index i = 0; i < size; ++i)
-        K(i, j) = -column[static_cast<std::size_t>(i)] / std::sqrt(mass[static_cast<std::size_t>(i / 3)] *
-                                                                    mass[static_cast<std::size_t>(j / 3)]);
+        K(i, j) = -column[static_cast<std::size_t>(i)] /
+                  std::sqrt(mass[static_cast<std::size_t>(i / 3)] * mass[static_cast<std::size_t>(j / 3)]);
     }
     const Eigen::MatrixXd symmetric = (K + K.transpose()) / 2;
-    const double highest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-                               .eigenvalues()[size - 1];
+    const double highest =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[size - 1];
     const double bound = body->frequency_bound(small.x.data(), team);
     CHECK(bound >= highest);
     CHECK(bound <= 8 * highest);

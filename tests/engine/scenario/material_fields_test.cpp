@@ -140,7 +140,7 @@ TEST_CASE("refuses fields the mesh has not, of other size, or with values that a
     for (const char* part : parts) CHECK(says(message, part));
   };
   refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "e"}})",
-       {"materials[0].mu: ", "body.vtu has no field 'e'", "E (1), nu (1), bad (1), holes (3), direction (3)"});
+          {"materials[0].mu: ", "body.vtu has no field 'e'", "E (1), nu (1), bad (1), holes (3), direction (3)"});
   refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "direction"}})",
        {"materials[0].mu: the field 'direction' of", "has 3 numbers an element (1 are wanted)"});
   refuses(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "E"}})",
@@ -148,7 +148,8 @@ TEST_CASE("refuses fields the mesh has not, of other size, or with values that a
   refuses(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "direction"}})",
        {"materials[0].fibre: the field 'direction' is [0, 0, 0] in element 4", "not all of its numbers 0"});
   const auto muscle = [](const char* field) {
-    return fmt::format(R"({{"law": "stvk", "lambda": 0, "mu": 5, "active_stress": 9, "fibre": {{"field": "{}"}}}})", field);
+    return fmt::format(R"({{"law": "stvk", "lambda": 0, "mu": 5, "active_stress": 9, "fibre": {{"field": "{}"}}}})",
+                       field);
   };
   refuses(muscle("dir"), {"materials[0].fibre: ", "body.vtu has no field 'dir'"});
   refuses(muscle("nu"), {"materials[0].fibre: the field 'nu' of", "has 1 numbers an element (3 are wanted)"});

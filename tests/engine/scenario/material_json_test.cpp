@@ -126,17 +126,18 @@ TEST_CASE("writes every law so that it reads back bit for bit") {
 }
 
 TEST_CASE("writes fields, memory and volume terms so that they read back") {
-  for (const char* text :
-       {R"({"law": "hgo", "K1": {"field": "K"}, "kappa": 20, "k1": 3, "k2": 4, "fibre": {"field": "a b"}})",
-        R"({"law": "ogden", "mu": [1, 2], "alpha": [2, 3], "kappa": {"field": "K"}, "volume_term": "logarithmic"})",
-        R"({"law": "stvk", "young": {"field": "E"}, "poisson": {"field": "nu"}})",
-        R"({"law": "neo_hookean", "young": 3e3, "poisson": {"field": "nu"}, "viscosity": 0.1, "bulk_viscosity": 3})",
-        R"({"law": "neo_hookean", "lambda": {"field": "l"}, "mu": 4})",
-        R"({"law": "mass_spring", "stiffness": {"field": "k"}})",
-        R"({"law": "neo_hookean", "lambda": 1, "mu": 4, "fibre": [0, 3, 4], "active_stress": 6e4})",
-        R"({"law": "neo_hookean", "lambda": 1, "mu": 4, "fibre": {"field": "a"}, "active_stress": 0})",
-        R"({"law": "guccione", "C": 1, "bf": 2, "bt": 3, "bfs": 4, "kappa": 9, "fibre": [1, 0, 0], "active_stress": 5})",
-        R"({"law": "gent", "mu": 1, "Jm": 3, "kappa": 9, "relaxation": [{"gamma": 0.3, "tau": 0.1}],
+  for (
+      const char* text :
+      {R"({"law": "hgo", "K1": {"field": "K"}, "kappa": 20, "k1": 3, "k2": 4, "fibre": {"field": "a b"}})",
+       R"({"law": "ogden", "mu": [1, 2], "alpha": [2, 3], "kappa": {"field": "K"}, "volume_term": "logarithmic"})",
+       R"({"law": "stvk", "young": {"field": "E"}, "poisson": {"field": "nu"}})",
+       R"({"law": "neo_hookean", "young": 3e3, "poisson": {"field": "nu"}, "viscosity": 0.1, "bulk_viscosity": 3})",
+       R"({"law": "neo_hookean", "lambda": {"field": "l"}, "mu": 4})",
+       R"({"law": "mass_spring", "stiffness": {"field": "k"}})",
+       R"({"law": "neo_hookean", "lambda": 1, "mu": 4, "fibre": [0, 3, 4], "active_stress": 6e4})",
+       R"({"law": "neo_hookean", "lambda": 1, "mu": 4, "fibre": {"field": "a"}, "active_stress": 0})",
+       R"({"law": "guccione", "C": 1, "bf": 2, "bt": 3, "bfs": 4, "kappa": 9, "fibre": [1, 0, 0], "active_stress": 5})",
+       R"({"law": "gent", "mu": 1, "Jm": 3, "kappa": 9, "relaxation": [{"gamma": 0.3, "tau": 0.1}],
                "plasticity": {"yield": 7}})"}) {
     CAPTURE(text);
     const RegionMaterial entry = read(text);

@@ -38,8 +38,8 @@ double distance_to(const World& world, const WorldSetup& setup, double a) {
   double worst = 0;
   const std::vector<Vec3> x = world.positions();
   for (std::size_t n = 0; n < x.size(); ++n)
-    worst = std::max(worst, (x[n] - Vec3(a * setup.mesh.nodes[n].x(), setup.mesh.nodes[n].y(), setup.mesh.nodes[n].z()))
-                                .norm());
+    worst = std::max(
+        worst, (x[n] - Vec3(a * setup.mesh.nodes[n].x(), setup.mesh.nodes[n].y(), setup.mesh.nodes[n].z())).norm());
   return worst;
 }
 
