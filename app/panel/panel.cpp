@@ -260,8 +260,12 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
 }
 
 Situation Panel::situation(const Frame& frame) const {
-  Situation now{tool_.tool().tool, interaction_,          suture_begun_,
-                frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value(),
+  Situation now{tool_.tool().tool,
+                interaction_,
+                suture_begun_,
+                frame.paused,
+                !frame.halted.empty(),
+                timeline_ && timeline_->shown.has_value(),
                 !regions_.hidden().empty()};
   for (const DeviceInfo& device : tool_.devices())
     if (device.is_new) {

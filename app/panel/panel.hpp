@@ -51,9 +51,9 @@ class Panel {
   /// keys.
   PanelActions draw(const Frame& frame);
 
-  void perform(Action action);        ///< queued for the next draw() or perform_now()
+  void perform(Action action);                   ///< queued for the next draw() or perform_now()
   PanelActions perform_now(const Frame& frame);  ///< performs what is queued, and returns what draw() would
-  void sync(const Command& command);  ///< updates the shown settings after a command from elsewhere
+  void sync(const Command& command);             ///< updates the shown settings after a command from elsewhere
   /// For some seconds. folder: that a button offers to open; empty: none.
   void notify(std::string text, std::filesystem::path folder = {}) {
     notices_.notify(std::move(text), std::move(folder));
@@ -127,15 +127,15 @@ class Panel {
   Interaction interaction_ = Interaction::none;
   bool suture_begun_ = false;
   std::optional<long> filmed_frames_;
-  long undo_steps_ = 0;  ///< UndoList::steps whose settings are shown
+  long undo_steps_ = 0;     ///< UndoList::steps whose settings are shown
   long seen_regions_ = -1;  ///< Regions::version that is shown
   ToolSection tool_;
   long refusals_ = 0;  ///< Frame::refusals that were shown
   MeshSection mesh_;
   MaterialSection material_;
   StretchMonitor stretch_monitor_;
-  long surface_version_;      ///< SurfaceMesh::version that stretch_monitor_ is of
-  int limited_changes_ = -1;  ///< MaterialSection::changes() that stretch_monitor_ is of
+  long surface_version_;             ///< SurfaceMesh::version that stretch_monitor_ is of
+  int limited_changes_ = -1;         ///< MaterialSection::changes() that stretch_monitor_ is of
   std::vector<int> surface_hidden_;  ///< SurfaceMesh::hidden that it is of
   RegionSection regions_;
   SelectionSection selecting_;

@@ -8,8 +8,7 @@
 #include <app/render/grasp_pose.hpp>
 
 namespace heml::panel {
-namespace {
-}
+namespace {}
 
 void draw_force(Rows& rows, const Frame& frame, const History& history) {
   const std::optional<double> force = force_of_hands(frame.tools);

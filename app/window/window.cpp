@@ -27,7 +27,7 @@ class DrawingPace {
   static constexpr double shortest = 1.0 / 60;  ///< s
 
  private:
-  static constexpr double rest = 1.0 / 16;      // of the drawing time
+  static constexpr double rest = 1.0 / 16;  // of the drawing time
   Clock::time_point next_{};
 };
 

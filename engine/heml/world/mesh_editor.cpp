@@ -17,7 +17,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t max_undo = 20;  // edits; of earlier states only the start is kept
+constexpr std::size_t max_undo = 20;        // edits; of earlier states only the start is kept
 constexpr double contraction_rate = 2;      // 1/s, of first lengths: a fifth within 0.1 s, slower than waves pass
 constexpr double contraction_stage = 0.01;  // s
 

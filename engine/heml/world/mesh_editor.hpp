@@ -13,12 +13,12 @@ namespace heml {
 template <class Real>
 struct EditHistory {
   using Saved = std::shared_ptr<const SimulationSnapshot<Real>>;
-  Saved whole;                 ///< before the first edit; null: there was none
-  std::vector<Saved> saved;    ///< before each of the last edits
-  Stroke stroke;               ///< what the last cut leaves to the next one, mesh-file order
-  bool in_stroke = false;      ///< whether the current stroke has its state saved
-  std::string missed;          ///< what the last stroke did not do, where it changed nothing
-  double snap = 0;             ///< m, snapping distance of cuts; 0: not computed yet
+  Saved whole;               ///< before the first edit; null: there was none
+  std::vector<Saved> saved;  ///< before each of the last edits
+  Stroke stroke;             ///< what the last cut leaves to the next one, mesh-file order
+  bool in_stroke = false;    ///< whether the current stroke has its state saved
+  std::string missed;        ///< what the last stroke did not do, where it changed nothing
+  double snap = 0;           ///< m, snapping distance of cuts; 0: not computed yet
 };
 
 template <class Real>

@@ -125,7 +125,7 @@ struct VentricleCase {
   double most_strain;  ///< limit, relative
   bool quick, drawn;
 };
-constexpr double contraction_limit = 0.02;  // fibres are constant in an element
+constexpr double contraction_limit = 0.02;                // fibres are constant in an element
 constexpr double apex_limit = 0.01, strain_limit = 0.05;  // strains are read to 2 in 57 and 33
 
 }  // namespace
