@@ -118,7 +118,7 @@ std::string energy_section() {
   facts.add({"`parameters`", "a number for each other name; every one must occur in the expression"});
   facts.add({"`fibre`", "direction a0 of `I4`, `I4b`; required by them"});
   facts.add({"range", "J > 0, and wherever W and its derivatives are finite"});
-  facts.add({"further keys", "`viscosity`, `bulk_viscosity`"});
+  facts.add({"further keys", "`active_stress`, `viscosity`, `bulk_viscosity`"});
   return text + facts.text() +
          "I1, I2, I3 are the invariants of C, l1 ≥ l2 ≥ l3 the principal stretches; b: of J^(−1/3) F. First and second "
          "derivatives\n"

@@ -12,6 +12,7 @@
 namespace heml::panel {
 namespace {
 
+constexpr double max_active_stress = 200;  // kPa, of the slider
 constexpr float tall_picture = 54;  // em: in images at least this high the curve starts open
 
 std::string name_of(const RegionMaterial& entry, const std::map<int, std::string>& names) {
@@ -31,6 +32,12 @@ void warn_in_panel(const std::string& text) {
 void MaterialSection::sync(const SetMaterial& command) {
   for (RegionMaterial& entry : materials_)
     if (entry.region == command.region) entry.material = command.material;
+  ++changes_;
+}
+
+void MaterialSection::sync(const SetActiveStress& command) {
+  for (RegionMaterial& entry : materials_)
+    if (entry.region == command.region) entry.material.active_stress = command.stress;
   ++changes_;
 }
 
@@ -76,6 +83,7 @@ void MaterialSection::draw(Rows& rows, double stretched, PanelActions& out) {
       out.commands.emplace_back(SetMaterial{entry.region, edited});
     }
   }
+  draw_contraction(rows, entry, out);
   draw_outcome(rows, entry.material, stretched);
   if (!problem_.empty()) warn_in_panel(problem_);
 }
@@ -124,6 +132,20 @@ bool MaterialSection::draw_numbers(Rows& rows, Material& material, const LawInfo
   changed |= rows.slider({"Density", "Mass per volume at rest, kg/m³. Water has 1000."}, material.density,
                          {100, 10000, "%.0f kg/m³", true});
   return changed;
+}
+
+/// A command of its own, so that fields of the mesh and internal state stay.
+void MaterialSection::draw_contraction(Rows& rows, RegionMaterial& entry, PanelActions& out) {
+  if (!entry.material.gives_fibre() || entry.material.plasticity) return;
+  double kilopascal = 1e-3 * entry.material.active_stress;
+  if (!rows.slider({"Active stress",
+                    "Contraction of muscle along its fibres, kPa, on the cross section at rest. Heart muscle reaches "
+                    "about 60 to 120."},
+                   kilopascal, {0, max_active_stress, "%.4g kPa", false}))
+    return;
+  entry.material.active_stress = 1e3 * kilopascal;
+  ++changes_;
+  out.commands.emplace_back(SetActiveStress{entry.region, entry.material.active_stress});
 }
 
 void MaterialSection::draw_outcome(Rows& rows, const Material& material, double stretched) {

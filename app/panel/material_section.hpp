@@ -16,12 +16,14 @@ class MaterialSection {
   explicit MaterialSection(std::vector<RegionMaterial> materials, std::map<int, std::string> names = {})
       : materials_(std::move(materials)), names_(std::move(names)) {}
 
-  /// Adds one SetMaterial if the user changed the material and material_problem() has no objection. stretched: share of
-  /// surface nodes stretched beyond the measured range of their tissue (stretch_monitor.hpp).
+  /// Adds one SetMaterial if the user changed the material, one SetActiveStress if its contraction, and
+  /// material_problem() has no objection. stretched: share of surface nodes stretched beyond the measured range of
+  /// their tissue (stretch_monitor.hpp).
   void draw(Rows& rows, double stretched, PanelActions& out);
 
   /// Updates the shown material after a command from elsewhere (a script).
   void sync(const SetMaterial& command);
+  void sync(const SetActiveStress& command);
   /// Entries that there are now, of regions and their names. Those of fields keep what the scene says of them; the
   /// newest one is shown.
   void take(const std::vector<RegionMaterial>& materials, const std::map<int, std::string>& names);
@@ -34,6 +36,7 @@ class MaterialSection {
   void draw_region(Rows& rows);
   bool draw_law(Rows& rows, Material& material);
   bool draw_numbers(Rows& rows, Material& material, const LawInfo& law);
+  void draw_contraction(Rows& rows, RegionMaterial& entry, PanelActions& out);
   void draw_outcome(Rows& rows, const Material& material, double stretched);
 
   std::vector<RegionMaterial> materials_;

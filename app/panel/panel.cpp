@@ -139,6 +139,7 @@ void Panel::perform(Action action) { pressed_.push_back(action); }
 
 void Panel::sync(const Command& command) {
   if (const auto* material = std::get_if<SetMaterial>(&command)) material_.sync(*material);
+  if (const auto* active = std::get_if<SetActiveStress>(&command)) material_.sync(*active);
   if (const auto* gravity = std::get_if<SetGravity>(&command)) {
     motion_.sync(*gravity);
     tool_.sync(*gravity);

@@ -18,11 +18,12 @@ constexpr auto save_interval = std::chrono::seconds(5);
 
 /// Whether a scene file holds what the command did.
 bool is_of_a_scene(const Command& command) {
-  return std::holds_alternative<SetMaterial>(command) || std::holds_alternative<SetGravity>(command) ||
-         std::holds_alternative<SetDamping>(command) || std::holds_alternative<SetIntegrator>(command) ||
-         std::holds_alternative<SetRate>(command) || std::holds_alternative<SetBudget>(command) ||
-         std::holds_alternative<SetTables>(command) || std::holds_alternative<SetBoundary>(command) ||
-         std::holds_alternative<SetLoads>(command) || std::holds_alternative<TagRegion>(command);
+  return std::holds_alternative<SetMaterial>(command) || std::holds_alternative<SetActiveStress>(command) ||
+         std::holds_alternative<SetGravity>(command) || std::holds_alternative<SetDamping>(command) ||
+         std::holds_alternative<SetIntegrator>(command) || std::holds_alternative<SetRate>(command) ||
+         std::holds_alternative<SetBudget>(command) || std::holds_alternative<SetTables>(command) ||
+         std::holds_alternative<SetBoundary>(command) || std::holds_alternative<SetLoads>(command) ||
+         std::holds_alternative<TagRegion>(command);
 }
 
 /// The program that wrote a file, by the file's name; 0: it is another file.

@@ -86,6 +86,7 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
           std::make_unique<MeanDilatation<Real>>(std::move(kappa), material.volume_term, options_.continuation);
   }
   part.terms = make_terms<Real>(of_points, options_.continuation, options_.nodal_pressure && !by_element);
+  set_active_term(part, material.active_stress);
   auto density = static_cast<Real>(material.density);
   if (layout_->virtual_corners) density /= static_cast<Real>(frequency_ratio);  // for bounds of frequencies alone
   if (part.group->density != density) part.group.write().density = density;
@@ -99,14 +100,46 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   return part;
 }
 
+/// Makes, changes or removes the term of active stress.
+template <class Real>
+void ElasticBody<Real>::set_active_term(Part& part, double stress) const {
+  if (stress == 0) {
+    if (part.active) part.terms.pop_back();
+    part.active = nullptr;
+    return;
+  }
+  assert(!part.group->fibre[0].empty());
+  const auto acting = static_cast<Real>(activation_ * stress);
+  if (part.active) return part.active->set_stress(acting);
+  auto term = std::make_unique<ActiveTerm<Real>>(acting);
+  part.active = term.get();
+  part.terms.push_back(std::move(term));
+}
+
+template <class Real>
+void ElasticBody<Real>::set_active_stress(std::size_t index, double stress) {
+  const bool had = materials_[index].active_stress != 0;
+  materials_[index].active_stress = stress;
+  for (Part& part : parts_)
+    if (part.material == index) set_active_term(part, stress);
+  if (had != (stress != 0)) join_parts();
+}
+
+template <class Real>
+void ElasticBody<Real>::set_activation(double part) {
+  if (part == activation_) return;
+  activation_ = part;
+  for (Part& each : parts_)
+    if (each.active) set_active_term(each, materials_[each.material].active_stress);
+}
+
 /// The part of a group that was made for another material, which may be the group of this one too.
 template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::remake_part(std::size_t index, const Material& before,
                                                                 Shared<ElementGroup<Real>> at_rest) const {
   const Material& now = materials_[index];
   const bool splits_fields = options_.nodal_pressure && layout_->virtual_corners;  // split_volume_modulus()
-  const bool same = find_law(before.law)->has_fibre == find_law(now.law)->has_fibre && before.fibre == now.fibre &&
-                    before.fibre_field == now.fibre_field && before.fields == now.fields &&
+  const bool same = before.fibre == now.fibre && before.fibre_field == now.fibre_field && before.fields == now.fields &&
                     !(splits_fields && !now.fields.empty());
   return same ? make_part(index, std::move(at_rest)) : make_part(index, at_rest->element);
 }

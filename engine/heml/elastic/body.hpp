@@ -2,8 +2,8 @@
 // The elastic part of a body: one group of elements per material, each with its energy terms; springs along edges and
 // averaged nodal pressure, which couple elements; and the sum of all forces at the nodes.
 //
-//   forces(x):  uniform laws, all their terms ──► fans ──► nodes ──────► + springs
-//               others ──► corner forces ──► added at nodes ─┘
+//   forces(x):  uniform laws, their passive terms ──► fans ──► nodes ──► + springs
+//               others, active stress ──► corner forces ──► added at nodes ─┘
 //
 // Nodal pressure comes with the fans if they have all elements, else with the corner forces.
 //
@@ -11,6 +11,7 @@
 // (virtual_corners.hpp), four of each; all that goes in or out is of the ten-node elements.
 #include <heml/base/shared.hpp>
 #include <heml/base/thread_team.hpp>
+#include <heml/elastic/active_term.hpp>
 #include <heml/elastic/body_layout.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/fan_forces.hpp>
@@ -53,7 +54,7 @@ struct KernelInfo {
   std::size_t material;  ///< index into the body's materials
   std::string law;
   std::string kernel;  ///< "fans": fan kernels; "corners": loops over corner forces; "fans and corners": fan kernels,
-                       ///< loops for nodal pressure; "springs": along edges
+                       ///< loops for nodal pressure or active stress; "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
   double bytes_per_tet;  ///< read and written in one force evaluation, each array counted once; 0 for springs
@@ -73,6 +74,7 @@ struct BodySnapshot {
   FanForces<Real> fans;
   double plastic_work = 0;  ///< J
   Real step = 0;            ///< s, of the last begin_step()
+  double activation = 1;    ///< of the last set_activation()
   std::size_t bytes() const;
 };
 
@@ -176,6 +178,12 @@ class ElasticBody {
   /// Replaces a material. Its elements lose their internal state and are taken as relaxed at x; those of other
   /// materials keep theirs. plastic_work() keeps the work done so far in all of them.
   void set_material(std::size_t index, const Material& material, const Real* x);
+  /// Sets the active stress of a material, Pa, which must have a fibre if it is not 0 (asserted). Its elements keep
+  /// their internal state.
+  void set_active_stress(std::size_t index, double stress);
+  /// Sets the part of every active stress that acts: static worlds ramp it with their loads. 1 at the start.
+  void set_activation(double part);
+  double activation() const { return activation_; }
   /// Elements have other materials: materials, those there are and more; material_of: #T. One that loses elements keeps
   /// the internal state of the rest; one that gains some is taken as relaxed at x altogether.
   void set_material_of(const std::vector<Material>& materials, const std::vector<int>& material_of, const Real* x);
@@ -236,12 +244,13 @@ class ElasticBody {
     std::unique_ptr<PlasticFlow<Real>> flow;
     std::unique_ptr<MeanDilatation<Real>> dilatation;  ///< null: the points have all of the volume term
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
-    bool in_fans;                                      ///< fans_ evaluates the forces of all terms
+    bool in_fans;                                      ///< fans_ evaluates the forces of all passive terms
+    ActiveTerm<Real>* active = nullptr;                ///< the last of the terms, or null
 
     Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
-    std::size_t first_loop() const { return in_fans ? terms.size() : 0; }  ///< first term that forces() loops over
-    SlotStates<Real> slot_states();                                        ///< of all terms and the flow
-    void reset_history(const Real* x);                                     ///< of all terms and the flow
+    std::size_t first_loop() const { return in_fans ? terms.size() - (active ? 1 : 0) : 0; }  ///< of forces()
+    SlotStates<Real> slot_states();     ///< of all terms and the flow
+    void reset_history(const Real* x);  ///< of all terms and the flow
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
   static constexpr std::size_t grain_ = 2048;       ///< min. elements per thread, which outweigh the cost of waking it
@@ -250,6 +259,7 @@ class ElasticBody {
   std::vector<Real> at_rest() const;
   void set_elements(const TetMesh& mesh, const std::vector<int>& material_of, const MidEdges& midedges);
   void make_parts();
+  void set_active_term(Part& part, double stress) const;
   Part make_part(std::size_t material, const std::vector<int>& elements) const;
   Part make_part(std::size_t material, Shared<ElementGroup<Real>> at_rest) const;
   Part remake_part(std::size_t material, const Material& before, Shared<ElementGroup<Real>> at_rest) const;
@@ -347,6 +357,7 @@ class ElasticBody {
   std::vector<Real> node_volume_;          ///< m³, scratch of forces()
   double plastic_work_ = 0;
   Real step_ = 0;  ///< s, of the last begin_step()
+  double activation_ = 1;
   /// Whether the state by slot of the parts in fans is older than that of fans_; update_slots() copies it.
   mutable bool slots_are_old_ = false;
 };

@@ -101,7 +101,7 @@ void ElasticBody<Real>::set_internal_state(const InternalState<Real>& state) {
 template <class Real>
 BodySnapshot<Real> ElasticBody<Real>::snapshot() {
   update_slots();
-  BodySnapshot<Real> snapshot{layout_, {}, materials_, fans_, plastic_work_, step_};
+  BodySnapshot<Real> snapshot{layout_, {}, materials_, fans_, plastic_work_, step_, activation_};
   snapshot.fans.drop_scratch();
   for (Part& part : parts_) {
     snapshot.parts.push_back({part.material, part.group_at_rest(), {}});
@@ -119,11 +119,14 @@ void ElasticBody<Real>::restore(const BodySnapshot<Real>& snapshot, const Real* 
   parts_.clear();
   slots_are_old_ = false;
   step_ = snapshot.step;
+  activation_ = snapshot.activation;
   for (const auto& of_part : snapshot.parts) {
     const Material& before = snapshot.materials[of_part.material];
     Part& part = parts_.emplace_back(remake_part(of_part.material, before, of_part.group));
     part.reset_history(x);
-    if (!(materials_[part.material] == before)) continue;
+    Material same = before;
+    same.active_stress = materials_[part.material].active_stress;  // the state does not depend on it
+    if (!(materials_[part.material] == same)) continue;
     const SlotStates<Real> lists = part.slot_states();
     for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
   }

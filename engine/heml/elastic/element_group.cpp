@@ -25,11 +25,11 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
   for (auto& list : group.A) list.resize(padded);
   group.volume.resize(padded);
   group.gamma.resize(padded);
-  const bool has_fibre = find_law(material.law)->has_fibre;
+  const bool has_fibre = find_law(material.law)->has_fibre || material.gives_fibre();
   if (has_fibre)
     for (auto& list : group.fibre) list.resize(padded);
   const std::vector<double>* directions =
-      has_fibre && !material.fibre_field.empty() ? &field_values(mesh, material.fibre_field, 3) : nullptr;
+      !material.fibre_field.empty() ? &field_values(mesh, material.fibre_field, 3) : nullptr;
   group.parameters.assign(material.fields.size(), std::vector<Real>(padded));
   for (std::size_t s = 0; s < padded; ++s) {
     const auto element = static_cast<std::size_t>(elements[std::min(s, elements.size() - 1)]);

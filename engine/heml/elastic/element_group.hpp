@@ -5,7 +5,7 @@
 //   node[4]:     . . . . . . . . |               repeating the last one
 //   A[6]:        . . . . . . . . |               A = Dm⁻¹Dm⁻ᵀ, A_ab = g_a·g_b, a, b = 1..3, as 11 22 33 12 13 23
 //   volume:      . . . . . . . . |
-//   fibre[3]:    . . . . . . . . |               m = Dm⁻¹a0 where the law has a fibre, else empty
+//   fibre[3]:    . . . . . . . . |               m = Dm⁻¹a0 where the material gives a fibre, else empty
 //   parameters:  . . . . . . . . |               material parameters that vary by element, else empty
 //
 //   corner forces: 12 numbers a slot, [slot][corner][xyz], written by the force loop,

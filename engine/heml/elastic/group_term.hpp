@@ -1,6 +1,6 @@
 #pragma once
 // One energy term of a group of elements, type-erased. A material is a list of terms: its law; a volume term that
-// replaces the law's own; viscosity and relaxation.
+// replaces the law's own; viscosity and relaxation; active stress.
 //
 // A loop over packets is one virtual call. Terms of uniform laws override the loops with the vectorised ones of
 // group_loops.hpp. The default loops call the functions of one slot, which also serve parameters that vary by element
@@ -96,8 +96,8 @@ void read_edge_stiffness(const Real* K, std::size_t s, Real k[edge_entries]) {
   for (std::size_t i = 0; i < edge_entries; ++i) k[i] = from[lanes * i];
 }
 
-/// The terms of a material that material_problem() accepts; none if its law is not a continuum. without_volume: the
-/// isochoric part alone (nodal_pressure.hpp evaluates the volume term).
+/// The passive terms of a material that material_problem() accepts; none if its law is not a continuum. without_volume:
+/// the isochoric part alone (nodal_pressure.hpp evaluates the volume term).
 template <class Real>
 std::vector<std::unique_ptr<GroupTerm<Real>>> make_terms(const Material& material, bool continuation,
                                                          bool without_volume);

@@ -21,10 +21,11 @@ Material match_moduli(const Material& material, const LawInfo& from, const LawIn
   result.parameters.clear();
   result.fields.clear();
   for (const ParameterInfo& info : to.parameters) result.parameters.push_back(info.initial_value);
-  if (!to.has_fibre) {
+  if (!to.is_continuum) result.active_stress = 0;
+  if (!to.has_fibre && result.active_stress == 0) {
     result.fibre = Vec3::Zero();
     result.fibre_field.clear();
-  } else if (result.fibre_field.empty() && result.fibre.isZero()) {
+  } else if (to.has_fibre && result.fibre_field.empty() && result.fibre.isZero()) {
     result.fibre = Vec3::UnitX();
   }
   if (!to.has_volume_term) {

@@ -103,9 +103,13 @@ std::optional<Problem> parameter_problem(const Material& material, const LawInfo
   return std::nullopt;
 }
 
-/// The first problem of fibre, volume term, viscosity, relaxation or plasticity.
+/// The first problem of fibre, active stress, volume term, viscosity, relaxation or plasticity.
 std::optional<Problem> inelastic_problem(const Material& material, const LawInfo& law) {
-  if (law.has_fibre && material.fibre_field.empty() && !(std::abs(material.fibre.norm() - 1) < 1e-9))
+  const double Ta = material.active_stress;
+  if (!(Ta >= 0) || !std::isfinite(Ta)) return Problem{"active_stress", fmt::format("must be 0 Pa or more, is {}", Ta)};
+  if (Ta > 0 && !law.is_continuum) return Problem{"active_stress", fmt::format("the law '{}' has none", law.name)};
+  const bool needs_fibre = law.has_fibre || Ta > 0 || !material.fibre.isZero(0);
+  if (needs_fibre && material.fibre_field.empty() && !(std::abs(material.fibre.norm() - 1) < 1e-9))
     return Problem{"fibre", "must be a direction of length 1"};
   const auto needs_split = [&](const char* key) {
     return Problem{key, fmt::format("the law '{}' has no separate volume term", law.name)};
@@ -129,6 +133,7 @@ std::optional<Problem> inelastic_problem(const Material& material, const LawInfo
     const auto& [yield, hardening] = *material.plasticity;
     if (!law.has_volume_term) return needs_split("plasticity");
     if (law.has_fibre) return Problem{"plasticity", "is for laws without fibres"};
+    if (Ta > 0) return Problem{"plasticity", "is for materials without active stress"};
     if (!(yield > 0) || !std::isfinite(yield))
       return Problem{"plasticity.yield", fmt::format("must be greater than 0 Pa, is {}", yield)};
     if (!(hardening >= 0) || !std::isfinite(hardening))

@@ -49,10 +49,11 @@ struct Material {
   std::vector<double> parameters;  ///< SI, in the order of LawInfo::parameters; lists one after the other
   double density = 1000.0;         ///< kg/m³
 
-  Vec3 fibre = Vec3::Zero();                ///< unit vector at rest, for laws with a fibre
+  Vec3 fibre = Vec3::Zero();                ///< unit vector at rest, for laws with a fibre and active stress
   std::string fibre_field = {};             ///< field of the mesh file with a fibre per element; empty: none
   std::vector<FieldParameter> fields = {};  ///< parameters with a value per element
 
+  double active_stress = 0;  ///< Ta of contracting muscle, Pa: S = Ta a0 ⊗ a0 beside the stress of the law
   VolumeTerm volume_term = VolumeTerm::quadratic;
   double viscosity = 0;                    ///< η, Pa s: σ = 2 η ε̇ + ζ tr(ε̇) I at small strain
   double bulk_viscosity = 0;               ///< ζ, Pa s
@@ -60,6 +61,7 @@ struct Material {
   std::optional<Plasticity> plasticity = {};
 
   bool operator==(const Material&) const = default;
+  bool gives_fibre() const { return !fibre_field.empty() || !fibre.isZero(0); }
   bool has_internal_state() const { return viscosity > 0 || bulk_viscosity > 0 || !relaxation.empty() || plasticity; }
 };
 

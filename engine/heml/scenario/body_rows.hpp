@@ -26,6 +26,28 @@ struct Row<SetMaterial> : CommonRow {
 };
 
 template <>
+struct Row<SetActiveStress> : CommonRow {
+  static constexpr std::string_view key = "active_stress", example = R"({"region": 2, "stress": 6e4})",
+                                    meaning =
+                                        "contracts or relaxes the muscle of a region, or of the default material, "
+                                        "which has a `fibre`; internal state is kept";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr std::span<const KeyInfo> keys = scene_keys::active_stress_event;
+  static Command read(const JsonCursor& value, Points&) {
+    const ObjectReader entry(value, keys);
+    SetActiveStress set;
+    entry.read("region", set.region);
+    set.stress = entry.get<double>("stress");
+    return set;
+  }
+  static Json write(const SetActiveStress& set) {
+    Json json{{"stress", set.stress}};
+    if (set.region) json["region"] = *set.region;
+    return json;
+  }
+};
+
+template <>
 struct Row<TagRegion> : CommonRow {
   static constexpr std::string_view key = "region",
                                     example = R"({"tets": [3, 4], "name": "lesion"})",

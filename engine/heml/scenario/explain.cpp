@@ -51,6 +51,8 @@ std::vector<TermFacts> terms_of(const Material& material, const SolverSettings& 
     terms.push_back({"nodal_pressure", volume + " volume term of the mean ratio round each node: two more passes"});
   if (!nodal_pressure && material.volume_term != VolumeTerm::quadratic)
     terms.push_back({"volume_term", volume + ": a second pass"});
+  if (material.active_stress > 0)
+    terms.push_back({"active_stress", fmt::format("{:.4g} Pa along the fibre", material.active_stress)});
   if (material.viscosity > 0 || material.bulk_viscosity > 0)
     terms.push_back(
         {"viscosity", fmt::format("{:.4g} Pa s, bulk {:.4g} Pa s", material.viscosity, material.bulk_viscosity)});

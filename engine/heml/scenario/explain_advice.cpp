@@ -129,6 +129,7 @@ std::vector<OmittedFeature> omitted_features_of(const Scene& scene, const WorldS
   leave(none([](const Material& m) { return m.viscosity > 0 || m.bulk_viscosity > 0; }), "viscosity", unasked);
   leave(none([](const Material& m) { return !m.relaxation.empty(); }), "relaxation", unasked);
   leave(none([](const Material& m) { return m.plasticity.has_value(); }), "plasticity", unasked);
+  leave(none([](const Material& m) { return m.active_stress > 0; }), "active stress", unasked);
   leave(none([](const Material& m) { return !m.fields.empty(); }), "parameters of each element",
         "uniform materials run the vectorised loops");
   leave(none([](const Material& m) { return find_law(m.law)->has_fibre; }), "fibres", "no law has them");

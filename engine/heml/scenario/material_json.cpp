@@ -40,6 +40,7 @@ constexpr ParticularKey particular_keys[] = {
     {"expression", is_energy},
     {"parameters", is_energy},
     {"fibre", [](const LawInfo& law) { return law.has_fibre || is_energy(law); }},
+    {"active_stress", [](const LawInfo& law) { return law.is_continuum; }},
     {"volume_term", [](const LawInfo& law) { return law.has_volume_term; }},
     {"viscosity", [](const LawInfo& law) { return law.is_continuum; }},
     {"bulk_viscosity", [](const LawInfo& law) { return law.is_continuum; }},
@@ -59,7 +60,8 @@ ObjectReader entry_of(const LawInfo& law, const JsonCursor& entry) {
   if (!is_energy(law))
     for (const ParameterInfo& info : law.parameters) names.push_back(info.name);
   for (const ParticularKey& key : particular_keys) {
-    if (key.taken_by(law)) {
+    const bool fibre_of_muscle = key.name == "fibre" && law.is_continuum && entry.has("active_stress");
+    if (key.taken_by(law) || fibre_of_muscle) {
       names.push_back(key.name);
     } else if (const auto given = entry.find(key.name)) {
       std::vector<std::string_view> others;
@@ -189,9 +191,11 @@ RegionMaterial material_from(const JsonCursor& key) {
   entry.read("region", result.region);
   entry.read("density", material.density);
   if (!is_energy(law)) read_parameters(key, law, material);
-  if (law.has_fibre) read_fibre(key["fibre"], material);
+  entry.read("active_stress", material.active_stress);
+  const bool needs_fibre = law.has_fibre || entry.find("active_stress");
+  if (needs_fibre) read_fibre(key["fibre"], material);
   // An expression without I4 may have a fibre all the same.
-  if (const auto fibre = key.find("fibre"); fibre && !law.has_fibre) fibre->direction();
+  if (const auto fibre = key.find("fibre"); fibre && !needs_fibre) fibre->direction();
   entry.read("volume_term", material.volume_term);
   read_memory(entry, material);
   check_values(key, material);
@@ -216,8 +220,10 @@ Json material_json(const RegionMaterial& entry) {
     json.update(is_energy(*law) ? energy_json(material) : parameters_json(material, *law));
     if (!material.fibre_field.empty())
       json["fibre"] = {{"field", material.fibre_field}};
-    else if (law->has_fibre)
+    else if (material.gives_fibre())
       json["fibre"] = vector_json(material.fibre);
+    if (material.active_stress > 0 || (material.gives_fibre() && !law->has_fibre))
+      json["active_stress"] = material.active_stress;
   }
   if (material.volume_term != VolumeTerm::quadratic)
     json["volume_term"] = volume_term_names()[static_cast<std::size_t>(material.volume_term)];

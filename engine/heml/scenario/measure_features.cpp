@@ -57,6 +57,8 @@ std::vector<Change> changes_of(const Scene& scene, const WorldSetup& setup) {
   if (any_material(setup, [](const Material& m) { return m.viscosity > 0 || m.bulk_viscosity > 0; }))
     changes.push_back(
         {"viscosity", "on", "off", in_materials([](Material& m) { m.viscosity = m.bulk_viscosity = 0; })});
+  if (any_material(setup, [](const Material& m) { return m.active_stress > 0; }))
+    changes.push_back({"active_stress", "on", "off", in_materials([](Material& m) { m.active_stress = 0; })});
   if (any_material(setup, [](const Material& m) { return !m.relaxation.empty(); }))
     changes.push_back({"relaxation", "on", "off", in_materials([](Material& m) { m.relaxation.clear(); })});
   if (any_material(setup, [](const Material& m) { return m.plasticity.has_value(); }))

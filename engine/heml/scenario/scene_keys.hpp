@@ -116,8 +116,12 @@ inline constexpr KeyInfo materials[] = {
     {"expression", form::text, "", "required by `energy`",
      "energy per unit rest volume, Pa, of [invariants and stretches](../../engine/docs/laws.md#energy)"},
     {"parameters", object, "", "`{}`", "a number for each other name in the expression"},
-    {"fibre", form::other("`[x, y, z]`, or `{\"field\": NAME}`"), "", "required by laws with fibres",
-     "direction at rest, normalised when read"},
+    {"fibre", form::other("`[x, y, z]`, or `{\"field\": NAME}`"), "",
+     "required by laws with fibres, and by `active_stress`", "direction at rest, normalised when read"},
+    {"active_stress", form::non_negative, "Pa", "0",
+     "of contracting muscle, Ta: second Piola-Kirchhoff stress Ta a0⊗a0 along `fibre`; static scenes ramp it with "
+     "their "
+     "loads; changed by the event `active_stress`"},
     {"volume_term", form::one_of(volume_term_names), "", "`\"quadratic\"`",
      "κ/2 (J−1)², κ/2 (ln J)² or κ/4 (J² − 1 − 2 ln J); laws with a volume term"},
     {"viscosity", form::non_negative, "Pa s", "0", "shear viscosity η: σ = 2 η ε̇ + ζ tr(ε̇) I at small strain"},
@@ -181,6 +185,10 @@ inline constexpr KeyInfo region_event[] = {
     region_sphere_row, region_name_row, region_number_row,
     {"material", object, "", "as it is, or as its first element's",
      "entry as of the scene's `materials`, without `region` and fields"}};
+inline constexpr KeyInfo active_stress_event[] = {
+    {"stress", form::non_negative, "Pa", required, "Ta, from now on"},
+    {"region", region, "", "the default entry", "entry of `materials` to change"},
+};
 inline constexpr KeyInfo tables[] = {
     {"point", form::vector, "m", required, "a point of the plane"},
     {"normal", form::direction, "", required, "towards the tissue; normalised when read"},

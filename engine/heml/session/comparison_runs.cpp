@@ -12,7 +12,8 @@ namespace heml {
 namespace {
 
 bool concerns(const Command& command, const Variant& variant) {
-  if (std::holds_alternative<SetMaterial>(command)) return !variant.has_law;
+  if (std::holds_alternative<SetMaterial>(command) || std::holds_alternative<SetActiveStress>(command))
+    return !variant.has_law;
   if (std::holds_alternative<SetIntegrator>(command)) return !variant.has_integrator;
   // Chosen from timings of the session's own world.
   return !std::holds_alternative<AdoptPreconditioner>(command) && !std::holds_alternative<SetStepCost>(command);

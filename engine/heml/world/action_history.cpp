@@ -13,6 +13,8 @@ bool sets_the_same(const Command& one, const Command& next) {
     const auto& other = std::get<SetMaterial>(next);
     return material->region == other.region && material->material.law == other.material.law;
   }
+  if (const auto* active = std::get_if<SetActiveStress>(&one))
+    return active->region == std::get<SetActiveStress>(next).region;
   return std::holds_alternative<SetGravity>(one) || std::holds_alternative<SetDamping>(one) ||
          std::holds_alternative<SetRate>(one);
 }

@@ -98,6 +98,7 @@ void BodyObjective<Real>::make_double_body() {
   if (is_refined() && !double_body_)
     double_body_ = std::make_unique<ElasticBody<double>>(model_->mesh, model_->material_of, body_.materials(),
                                                          body_.options(), model_->midedges);
+  if (double_body_) double_body_->set_activation(body_.activation());
 }
 
 template <class Real>
@@ -145,6 +146,8 @@ void BodyObjective<Real>::begin_static(double duration, const Vec3& gravity, con
 
 template <class Real>
 void BodyObjective<Real>::set_load(double fraction) {
+  body_.set_activation(fraction);
+  if (double_body_) double_body_->set_activation(fraction);
   set_time(fraction * duration_, fraction * full_gravity_);
 }
 

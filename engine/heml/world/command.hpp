@@ -89,6 +89,12 @@ struct SetMaterial {
   std::optional<int> region;
   Material material;
 };
+/// Contracts or relaxes the muscle of a region (none: of the default entry), whose material must have a fibre. Internal
+/// state is kept.
+struct SetActiveStress {
+  std::optional<int> region;
+  double stress = 0;  ///< Ta, Pa
+};
 /// Makes elements a region with a material of its own. Of a region that has none yet, without `material`: a copy of
 /// what its first element is made of.
 struct TagRegion {
@@ -156,11 +162,10 @@ struct Reset {
   bool scene = false;  ///< all else of the scene too: materials, regions, boundary, loads, gravity, method, tables
 };
 
-using Command =
-    std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
-                 WithdrawProbe, SutureTissue, CutSutures, SetMaterial, TagRegion, SetDamping, SetGravity, SetIntegrator,
-                 SetBudget, SetRate, SetStepCost, RemoveElements, CutTissue, CauterizeTissue, Undo, StepHistory,
-                 AdoptPreconditioner, Reset>;
+using Command = std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
+                             WithdrawProbe, SutureTissue, CutSutures, SetMaterial, SetActiveStress, TagRegion,
+                             SetDamping, SetGravity, SetIntegrator, SetBudget, SetRate, SetStepCost, RemoveElements,
+                             CutTissue, CauterizeTissue, Undo, StepHistory, AdoptPreconditioner, Reset>;
 
 /// Whether a kind of command changes the elements that there are, or takes such a change back.
 template <class C>

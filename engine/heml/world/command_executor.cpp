@@ -78,15 +78,37 @@ void CommandExecutor<Real>::follow_materials() {
   method_.choose();
 }
 
+/// The entry of `materials` of a region. what: the command, for messages.
+template <class Real>
+Status CommandExecutor<Real>::find_entry(const char* what, std::optional<int> region, std::size_t& index) const {
+  const auto entry = std::find_if(s_.setup->materials.begin(), s_.setup->materials.end(),
+                                  [&](const RegionMaterial& m) { return m.region == region; });
+  index = static_cast<std::size_t>(entry - s_.setup->materials.begin());
+  if (entry != s_.setup->materials.end()) return {};
+  return region ? fmt::format("{}: no entry for region {}", what, *region)
+                : fmt::format("{}: there is no default entry; name a region", what);
+}
+
+template <class Real>
+Status CommandExecutor<Real>::execute(const SetActiveStress& command) {
+  std::size_t index = 0;
+  if (const Status status = find_entry("active_stress", command.region, index); !status.ok()) return status;
+  Material material = s_.setup->materials[index].material;
+  if (!material.gives_fibre()) return "active_stress: the material has no fibre, along which it would act";
+  material.active_stress = command.stress;
+  if (const auto problem = material_problem(material))
+    return fmt::format("active_stress: {} {}", problem->first, problem->second);
+  s_.setup.write().materials[index].material = material;
+  s_.body.set_active_stress(index, command.stress);
+  follow_materials();
+  return {};
+}
+
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetMaterial& command) {
-  const auto entry = std::find_if(s_.setup->materials.begin(), s_.setup->materials.end(),
-                                  [&](const RegionMaterial& m) { return m.region == command.region; });
-  if (entry == s_.setup->materials.end())
-    return command.region ? fmt::format("material: no entry for region {}", *command.region)
-                          : std::string("material: there is no default entry; name a region");
-  if (const Status status = refused(command.material, &*entry); !status.ok()) return status;
-  const auto index = static_cast<std::size_t>(entry - s_.setup->materials.begin());
+  std::size_t index = 0;
+  if (const Status status = find_entry("material", command.region, index); !status.ok()) return status;
+  if (const Status status = refused(command.material, &s_.setup->materials[index]); !status.ok()) return status;
   s_.setup.write().materials[index].material = command.material;
   s_.body.set_material(index, command.material, s_.state.x.data());
   follow_materials();

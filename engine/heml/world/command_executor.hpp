@@ -25,6 +25,7 @@ class CommandExecutor {
     return tools_.execute(command);
   }
   Status execute(const SetMaterial& command);
+  Status execute(const SetActiveStress& command);
   Status execute(const TagRegion& command);
   Status execute(const SetDamping& command);
   Status execute(const SetGravity& command);
@@ -41,6 +42,7 @@ class CommandExecutor {
   Status execute(const SetLoads& command);
 
  private:
+  Status find_entry(const char* what, std::optional<int> region, std::size_t& index) const;
   Status refused(const Material& material, const RegionMaterial* replaced) const;
   RegionMaterial copied_material(const TaggedRegion& region) const;
   void follow_materials();

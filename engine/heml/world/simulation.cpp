@@ -91,14 +91,20 @@ void Simulation<Real>::move_constrained() {
 }
 
 template <class Real>
+double Simulation<Real>::load() const {
+  return setup->solver.is_static() ? ramp(state.time, setup->solver.load_duration()) : 1;
+}
+
+template <class Real>
 Vec3 Simulation<Real>::gravity() const {
-  return (setup->solver.is_static() ? ramp(state.time, setup->solver.load_duration()) : 1) * setup->gravity;
+  return load() * setup->gravity;
 }
 
 template <class Real>
 bool Simulation<Real>::evaluate_forces() {
   const Real* x = state.x.data();
   Real* f = state.f.data();
+  body.set_activation(load());
   const bool valid = acting_body().forces(x, f, team);
   const Vector3<Real> g = gravity().template cast<Real>();
   const std::vector<Real>& heavy = masses->heavy();
@@ -129,6 +135,7 @@ Energies Simulation<Real>::energies() {
     e.kinetic += m / 2 * v.squaredNorm();
     e.potential -= static_cast<double>(masses->heavy()[n]) * g.dot(x - model->mesh.nodes[n]);
   }
+  body.set_activation(load());
   e.elastic = acting_body().energy(state.x.data(), team);
   return e;
 }

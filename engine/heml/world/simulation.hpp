@@ -92,7 +92,9 @@ struct Simulation : SimulationState<Real> {
   void move_constrained();
   /// Writes the forces of all but supports at the current state to state.f. Returns false where a law is undefined.
   bool evaluate_forces();
-  /// m/s². In a static world gravity is ramped with all other loads.
+  /// Part of gravity and active stress that acts: below 1 in static worlds alone, which ramp all loads.
+  double load() const;
+  /// m/s².
   Vec3 gravity() const;
   Energies energies();
   /// Stores the result of a solve. Forces are those that its objective evaluated last. x, v: 3 #V.

@@ -6,8 +6,8 @@ namespace {
 // ns a tetrahedron, as the ForceCost of a law, of what is beside its kernels, in either precision: `heml bench step
 // --quick`, a step with it less that of the law alone. A term in vectorised loops (viscosity, another volume term),
 // averaged nodal pressure, relaxation, whose scalar code asks the law twice; a law whose parameters differ between
-// elements is asked once by such code.
-constexpr double a_loop = 20, pressure = 22, relaxation = 200, scalar_law = 100;
+// elements is asked once by such code. Active stress is estimated: a third of the operations of viscosity.
+constexpr double a_loop = 20, active = 6, pressure = 22, relaxation = 200, scalar_law = 100;
 constexpr double step = 2;  // its own: positions, velocities, its bound
 
 double cost_of(const KernelInfo& kernel, const WorldSetup& setup) {
@@ -23,6 +23,7 @@ double cost_of(const KernelInfo& kernel, const WorldSetup& setup) {
     cost += relaxation;
   else if (material.viscosity > 0 || material.bulk_viscosity > 0)
     cost += a_loop;
+  if (material.active_stress > 0) cost += active;
   return setup.solver.nodal_pressure ? cost + pressure : cost;
 }
 

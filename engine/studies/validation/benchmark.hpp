@@ -74,5 +74,6 @@ Finding cook_membrane(const Trial&);
 Finding relaxation(const Trial&);
 Finding land_beam(const Trial&);
 Finding land_ventricle(const Trial&);
+Finding land_contraction(const Trial&);
 
 }  // namespace heml::validation

@@ -206,6 +206,15 @@ Material rubber(double shear, double bulk) {
 
 double bulk_of(double shear, double poisson) { return 2 * shear * (1 + poisson) / (3 * (1 - 2 * poisson)); }
 
+Material heart_muscle(const std::array<double, 4>& parameters, double bulk) {
+  Material material;
+  material.law = "guccione";
+  material.parameters.assign(parameters.begin(), parameters.end());
+  material.parameters.push_back(bulk);
+  material.fibre = Vec3::UnitZ();
+  return material;
+}
+
 std::vector<int> nodes_where(const WorldSetup& setup, const std::function<bool(const Vec3&)>& chosen) {
   std::vector<int> nodes;
   for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n)
@@ -219,6 +228,10 @@ Boundary moved(int node, const Vec3& displacement, double ramp_time) {
   boundary.translate = displacement;
   boundary.ramp_time = ramp_time;
   return boundary;
+}
+
+Vec3 middle_of(const WorldSetup& setup, std::size_t element) {
+  return ElementMap(setup, element).at(setup.mesh.nodes, {0.25, 0.25, 0.25, 0.25});
 }
 
 std::vector<Vec3> carried(const WorldSetup& setup, const std::vector<Vec3>& x, const std::vector<Vec3>& points) {

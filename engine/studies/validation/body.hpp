@@ -32,10 +32,15 @@ WorldSetup make_body(TetMesh mesh, const std::string& element, const Material& m
 /// Neo-Hookean with a volume term of its own ("neo_hookean_iso"), of these moduli at rest.
 Material rubber(double shear, double bulk);
 double bulk_of(double shear, double poisson);
+/// Guccione's law with its C, bf, bt, bfs (Pa, -), fibres along z.
+Material heart_muscle(const std::array<double, 4>& parameters, double bulk);
 
 std::vector<int> nodes_where(const WorldSetup& setup, const std::function<bool(const Vec3&)>& chosen);
 /// A node moved by a displacement, ramped over ramp_time.
 Boundary moved(int node, const Vec3& displacement, double ramp_time = 0);
+
+/// The middle of an element at rest, straight or curved.
+Vec3 middle_of(const WorldSetup& setup, std::size_t element);
 
 /// Positions of material points given at rest: interpolated by the shape functions of linear or quadratic elements.
 /// setup: as made by make_body(), not yet moved into a world. x: positions of its nodes.

@@ -10,14 +10,6 @@ namespace {
 constexpr double length = 0.01, width = 0.001, bottom_pressure = 4;  // m, m, Pa
 constexpr double consensus = 4.17e-3;  // m, of z at the point, as others quote Land et al. 2015
 
-Material beam_muscle(double bulk) {
-  Material material;
-  material.law = "guccione";
-  material.parameters = {2e3, 8, 2, 4, bulk};
-  material.fibre = Vec3::UnitX();
-  return material;
-}
-
 struct BeamCase {
   const char* element;
   int cells;     ///< across; five times as many along
@@ -32,12 +24,13 @@ Finding land_beam(const Trial& trial) {
   constexpr BeamCase cases[] = {
       {"p2_pressure", 2, no_limit, false}, {"p2_pressure", 3, 0.01, true},
       {"p2_pressure", 4, 0.01, false},     {"p2", 4, no_limit, false}};
+  Material muscle = heart_muscle({2e3, 8, 2, 4}, bulk);
+  muscle.fibre = Vec3::UnitX();
   Finding finding;
   finding.curves.push_back({"consensus", true, {{500, consensus}, {2e4, consensus}}});
   for (const auto& [element, cells, limit, quick] : cases) {
     if (trial.quick && !quick) continue;
-    WorldSetup setup = make_body(make_box(Vec3(length, width, width), {5 * cells, cells, cells}), element,
-                                 beam_muscle(bulk));
+    WorldSetup setup = make_body(make_box(Vec3(length, width, width), {5 * cells, cells, cells}), element, muscle);
     Boundary clamp;
     clamp.nodes = nodes_where(setup, [](const Vec3& X) { return X.x() < 1e-9; });
     setup.boundary = {clamp};

@@ -21,6 +21,7 @@ TetMesh field_mesh() {
   mesh.fields = {{"E", 1, {1000, 2000, 3000, 4000, 5000}},
                  {"nu", 1, {0.1, 0.2, 0.3, 0.4, 0.45}},
                  {"bad", 1, {1, nan, 1, -1, 1}},
+                 {"holes", 3, {1, 0, 0, 1, 0, 0, 0, nan, 1, 1, 0, 0, 1, 0, 0}},
                  {"direction", 3, {2, 0, 0, 0, 3, 0, 0, 0, 4, 3, 0, 4, 0, 0, 0}}};
   return mesh;
 }
@@ -139,13 +140,21 @@ TEST_CASE("refuses fields the mesh has not, of other size, or with values that a
     for (const char* part : parts) CHECK(says(message, part));
   };
   refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "e"}})",
-       {"materials[0].mu: ", "body.vtu has no field 'e'", "E (1), nu (1), bad (1), direction (3)"});
+          {"materials[0].mu: ", "body.vtu has no field 'e'", "E (1), nu (1), bad (1), holes (3), direction (3)"});
   refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "direction"}})",
        {"materials[0].mu: the field 'direction' of", "has 3 numbers an element (1 are wanted)"});
   refuses(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "E"}})",
        {"materials[0].fibre: the field 'E' of", "has 1 numbers an element (3 are wanted)"});
   refuses(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "direction"}})",
        {"materials[0].fibre: the field 'direction' is [0, 0, 0] in element 4", "not all of its numbers 0"});
+  const auto muscle = [](const char* field) {
+    return fmt::format(R"({{"law": "stvk", "lambda": 0, "mu": 5, "active_stress": 9, "fibre": {{"field": "{}"}}}})",
+                       field);
+  };
+  refuses(muscle("dir"), {"materials[0].fibre: ", "body.vtu has no field 'dir'"});
+  refuses(muscle("nu"), {"materials[0].fibre: the field 'nu' of", "has 1 numbers an element (3 are wanted)"});
+  refuses(muscle("direction"), {"materials[0].fibre: the field 'direction' is [0, 0, 0] in element 4"});
+  refuses(muscle("holes"), {"materials[0].fibre: the field 'holes' is [0, nan, 1] in element 2"});
   refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "bad"}})",
        {"materials[0].mu: the field 'bad' in element 1: must be finite, is nan"});
   refuses(R"({"law": "stvk", "lambda": -900, "mu": {"field": "E"}})", {"materials[0].lambda: in element 0: "});

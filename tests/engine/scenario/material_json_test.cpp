@@ -28,6 +28,7 @@ void expect_same(const Material& a, const Material& b) {
     CHECK(a.fields[i].parameter == b.fields[i].parameter);
     CHECK(a.fields[i].field == b.fields[i].field);
   }
+  CHECK(a.active_stress == b.active_stress);
   CHECK(a.volume_term == b.volume_term);
   CHECK(a.viscosity == b.viscosity);
   CHECK(a.bulk_viscosity == b.bulk_viscosity);
@@ -125,14 +126,18 @@ TEST_CASE("writes every law so that it reads back bit for bit") {
 }
 
 TEST_CASE("writes fields, memory and volume terms so that they read back") {
-  for (const char* text :
-       {R"({"law": "hgo", "K1": {"field": "K"}, "kappa": 20, "k1": 3, "k2": 4, "fibre": {"field": "a b"}})",
-        R"({"law": "ogden", "mu": [1, 2], "alpha": [2, 3], "kappa": {"field": "K"}, "volume_term": "logarithmic"})",
-        R"({"law": "stvk", "young": {"field": "E"}, "poisson": {"field": "nu"}})",
-        R"({"law": "neo_hookean", "young": 3e3, "poisson": {"field": "nu"}, "viscosity": 0.1, "bulk_viscosity": 3})",
-        R"({"law": "neo_hookean", "lambda": {"field": "l"}, "mu": 4})",
-        R"({"law": "mass_spring", "stiffness": {"field": "k"}})",
-        R"({"law": "gent", "mu": 1, "Jm": 3, "kappa": 9, "relaxation": [{"gamma": 0.3, "tau": 0.1}],
+  for (
+      const char* text :
+      {R"({"law": "hgo", "K1": {"field": "K"}, "kappa": 20, "k1": 3, "k2": 4, "fibre": {"field": "a b"}})",
+       R"({"law": "ogden", "mu": [1, 2], "alpha": [2, 3], "kappa": {"field": "K"}, "volume_term": "logarithmic"})",
+       R"({"law": "stvk", "young": {"field": "E"}, "poisson": {"field": "nu"}})",
+       R"({"law": "neo_hookean", "young": 3e3, "poisson": {"field": "nu"}, "viscosity": 0.1, "bulk_viscosity": 3})",
+       R"({"law": "neo_hookean", "lambda": {"field": "l"}, "mu": 4})",
+       R"({"law": "mass_spring", "stiffness": {"field": "k"}})",
+       R"({"law": "neo_hookean", "lambda": 1, "mu": 4, "fibre": [0, 3, 4], "active_stress": 6e4})",
+       R"({"law": "neo_hookean", "lambda": 1, "mu": 4, "fibre": {"field": "a"}, "active_stress": 0})",
+       R"({"law": "guccione", "C": 1, "bf": 2, "bt": 3, "bfs": 4, "kappa": 9, "fibre": [1, 0, 0], "active_stress": 5})",
+       R"({"law": "gent", "mu": 1, "Jm": 3, "kappa": 9, "relaxation": [{"gamma": 0.3, "tau": 0.1}],
                "plasticity": {"yield": 7}})"}) {
     CAPTURE(text);
     const RegionMaterial entry = read(text);
@@ -161,6 +166,17 @@ TEST_CASE("refuses mistakes in a material with the key and what would be right")
       {R"({"law": "neo_hookean_iso", "K1": 1, "kappa": 9, "fibre": [1, 0, 0]})", "fibre: does not go with the law",
        "it goes with hgo"},
       {R"({"law": "hgo", "K1": 1, "kappa": 9, "k1": 1, "k2": 1})", "'fibre' is missing", "add \"fibre\""},
+      {R"({"law": "stvk", "lambda": 1, "mu": 1, "active_stress": 1})", "'fibre' is missing", "add \"fibre\""},
+      {R"({"law": "stvk", "lambda": 1, "mu": 1, "active_stress": -1, "fibre": [1, 0, 0]})", "active_stress: is -1",
+       "0 or greater"},
+      {R"({"law": "stvk", "lambda": 1, "mu": 1, "active_stress": {"field": "a"}, "fibre": [1, 0, 0]})",
+       "active_stress: is {", "a number"},
+      {R"({"law": "stvk", "lambda": 1, "mu": 1, "active_stress": 1, "fibre": [0, 0, 0]})", "fibre: is [0,0,0]",
+       "not all of its numbers 0"},
+      {R"({"law": "mass_spring", "stiffness": 1, "active_stress": 1})", "active_stress: does not go with", "stvk"},
+      {R"({"law": "gent", "mu": 1, "Jm": 3, "kappa": 9, "plasticity": {"yield": 1}, "active_stress": 1,
+           "fibre": [1, 0, 0]})",
+       "plasticity: is for materials without active stress", ""},
       {R"({"law": "hgo", "K1": 1, "kappa": 9, "k1": 1, "k2": 1, "fibre": [0, 0, 0]})", "fibre: is [0,0,0]",
        "not all of its numbers 0"},
       {R"({"law": "hgo", "K1": 1, "kappa": 9, "k1": 1, "k2": 1, "fibre": "x"})", "fibre: is \"x\"", "three numbers"},

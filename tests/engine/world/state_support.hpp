@@ -87,6 +87,7 @@ inline Command example(const WithdrawProbe&) { return WithdrawProbe{}; }
 inline Command example(const SutureTissue&) { return SutureTissue{{1, 3}, 0.02, 0.05}; }
 inline Command example(const CutSutures&) { return CutSutures{}; }
 inline Command example(const SetMaterial&) { return SetMaterial{std::nullopt, sample_material("stvk")}; }
+inline Command example(const SetActiveStress&) { return SetActiveStress{std::nullopt, 700}; }
 inline Command example(const TagRegion&) {
   return TagRegion{{{}, {{3, 4, 17, 30}, {}, {}, {}}, "lesion", {}}, sample_material("mooney_rivlin")};
 }
@@ -125,6 +126,7 @@ inline std::vector<Command> before(const Command& command) {
 inline WorldSetup bar_in_contact(Integrator integrator, bool single) {
   Material material = sample_material("mooney_rivlin");
   material.relaxation = {{0.5, 0.02}};
+  material.fibre = Vec3(3, 0, 4) / 5;
   WorldSetup setup = bar(material, integrator, single);
   setup.tables = {{Vec3(0, -0.001, 0), Vec3::UnitY(), 0.5}};
   setup.self_contact = SelfContactSettings{0.3};
