@@ -174,6 +174,7 @@ class Viewer final : public WindowEvents {
   int frames_wanted_ = settling_frames;
   long drawn_ = 0;
   int last_key_ = 0;
+  bool key_acted_ = false;  ///< the last key was an action: its letter, which comes after it, is not typed
   bool listed_ = false;            ///< a folder, before
   bool run_after_resume_ = false;  ///< the resumed session is to run
   UnsavedWork unsaved_;

@@ -3,6 +3,7 @@
 
 #include <app/panel/keys.hpp>
 #include <app/window/viewer.hpp>
+#include <utility>
 
 namespace heml::window {
 namespace {
@@ -19,7 +20,8 @@ void Viewer::came(Input input) {
 void Viewer::apply_input() {
   input_.apply([this](const Input& input) {
     changed();
-    window_.pass_to_imgui(input);
+    const bool is_of_action = std::holds_alternative<CharacterInput>(input) && std::exchange(key_acted_, false);
+    if (!is_of_action) window_.pass_to_imgui(input);
     return std::visit([this](const auto& one) { return apply(one); }, input);
   });
 }
@@ -30,6 +32,7 @@ int Viewer::apply(const KeyInput& key) {
   const bool is_seen_held = is_typing && !key.repeated && (key.code >= first_unprinted || key.control);
   const auto action = panel::action_of(key.key, key.control, key.shift);
   if (key.down) last_key_ = key.key;
+  if (key.down) key_acted_ = false;
   if (!key.down || !action) return is_seen_held;
   using enum panel::Action;
   const bool chooses = *action == select_previous || *action == select_next;
@@ -38,6 +41,7 @@ int Viewer::apply(const KeyInput& key) {
   const bool may_repeat = chooses || *action == step || *action == seek_previous || *action == seek_next;
   const bool is_text = is_typing && !is_asked && *action != quit;
   if (is_text || (key.repeated && !may_repeat)) return is_seen_held;
+  key_acted_ = true;
   perform(*action);
   if (panel_->is_modal() != was_modal) return settling_frames;  // until a text field has the keys
   return is_seen_held || was_modal;

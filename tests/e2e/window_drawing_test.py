@@ -101,6 +101,24 @@ class Drawing(WindowCase):
         self.wait_for("the skin again", lambda: green() > 50)
         self.quit()
 
+    def test_the_help_is_searched_by_typing_without_the_letter_that_opened_it(self):
+        self.open_display(1280, 720)
+        self.begin_light(size="1280x720")
+        self.xdo("key", "space")
+
+        def lines_found(words):
+            """Bright pixels below the search field."""
+            self.do("key", "h")
+            self.do("type", words)
+            picture = self.steady()
+            self.do("key", "Escape")
+            self.steady()
+            return sum(min(picture.pixel(x, y)) > 180 for y in range(75, 600, 2) for x in range(180, 700, 2))
+
+        nothing, zoom = lines_found("zzz"), lines_found("zoom")
+        self.assertGreater(zoom, nothing + 20)
+        self.quit()
+
     def test_a_paused_window_draws_nothing(self):
         self.open_display(640, 360)
         self.begin_light()
