@@ -87,7 +87,7 @@ std::vector<HelpEntry> find_help(const std::string& words, const std::vector<Row
   for (const Group& group : groups_of_page())
     for (const Line& line : group.lines) add({group.title, line.left, line.right});
   for (const auto& [section, label] : rows)
-    if (!label.hint.empty()) add({section, label.text, label.hint});
+    if (!label.hint.empty()) add({section.empty() ? "Buttons" : section, label.text, label.hint});
   return found;
 }
 

@@ -83,8 +83,16 @@ void text_at_right(const std::string& text, ImU32 colour) {
   ImGui::PopStyleColor();
 }
 
+/// A name and its control are one row, explained by the longer hint.
+void Rows::list(const Label& label) {
+  const bool is_same =
+      !listed_.empty() && listed_.back().section == section_ && listed_.back().label.text == label.text;
+  if (!is_same) return listed_.push_back({section_, label});
+  if (label.hint.size() > listed_.back().label.hint.size()) listed_.back().label.hint = label.hint;
+}
+
 void Rows::explain(const Label& label) {
-  if (lists_) listed_.push_back({section_, label});
+  if (lists_) list(label);
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   hovered_ = label.text;
   if (label.hint.empty() || ImGui::IsAnyMouseDown()) return;

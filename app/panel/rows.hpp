@@ -71,6 +71,7 @@ class Rows {
   /// lists: whether the rows of this frame are to be found in listed().
   void new_frame(bool lists = false) {
     hovered_.clear();
+    section_.clear();
     lists_ = lists;
     listed_.clear();
   }
@@ -86,6 +87,7 @@ class Rows {
   const std::string& hovered() const { return hovered_; }
 
  private:
+  void list(const Label& label);
   /// Draws the label, moves the cursor to the control and sets its width.
   void begin(const Label& label);
 

@@ -63,7 +63,8 @@ TEST_CASE("rows list themselves only while they are searched") {
     ImGui::NewFrame();
     drawn.new_frame(lists);
     ImGui::Begin("rows");
-    if (drawn.section("Material")) drawn.value({"Young's E", "Stiffness."}, "20");
+    double value = 20;
+    if (drawn.section("Material")) drawn.slider({"Young's E", "Stiffness."}, value, {1, 100});  // a name and a control
     ImGui::End();
     ImGui::Render();
     CHECK(drawn.listed().size() == (lists ? 1 : 0));
