@@ -85,7 +85,10 @@ TEST_CASE("capstan: a strip drawn round a probe slides at the ratio of tensions 
     run_until(*strip.world, 0.5);
     const double height = strip.height_of_left();
     const double held = strip.ratio();
-    CHECK(held == doctest::Approx(expected).epsilon(0.05));
+    // At rest any ratio up to that of sliding is an equilibrium. Where a strip that is stopped at once comes to rest
+    // depends on the last bits: loads 1e-7 apart end at 0.92 to 1.01 of it.
+    CHECK(held > 0.9 * expected);
+    CHECK(held < 1.05 * expected);
     run_until(*strip.world, 1.4);
     REQUIRE_FALSE(strip.world->halt());
     CHECK(strip.ratio() == doctest::Approx(held).epsilon(0.005));
