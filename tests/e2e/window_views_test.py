@@ -74,15 +74,15 @@ class Views(WindowCase):
         self.assertEqual(self.window_size(), (1280, 720))
         self.xdo("search", "--class", "heml", "windowsize", 900, 600)
         self.wait_for("a smaller window", lambda: self.window_size() == (900, 600))
-        self.wait_for("its size on file",
-                      lambda: "window 900 600" in (self.folder / "state" / "heml" / "panel").read_text())
+        kept = self.folder / "state" / "heml" / "panel"  # not there while all is as at first
+        self.wait_for("its size on file", lambda: kept.exists() and "window 900 600" in kept.read_text())
         self.quit()
         for arguments, size in (((), (900, 600)), (("--size", "800x500"), (800, 500)), ((), (900, 600))):
             self.log.unlink()
             self.begin(file, *arguments)
             self.assertEqual(self.window_size(), size)
             self.quit()
-        (self.folder / "state" / "heml" / "panel").write_text("window 5000 3000\n")
+        kept.write_text("window 5000 3000\n")
         self.log.unlink()
         self.begin(file)
         self.assertEqual(self.window_size(), (1280, 720))
