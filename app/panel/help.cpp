@@ -112,9 +112,7 @@ void Help::draw(const Rows& rows, ImVec2 picture) {
     draw_found(rows, page_.x - ImGui::GetStyle().WindowPadding.x);
   else
     draw_page({room.x, room.y - ImGui::GetCursorPosY()});
-  const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  if (!search_[0]) page_ = size;
-  place_ = {from, {from.x + size.x, from.y + size.y}};
+  if (!search_[0]) page_ = ImGui::GetWindowSize();
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
       !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
     open_ = false;

@@ -1,6 +1,5 @@
 #pragma once
 // The help page: mouse and keys, and a search through them and through the rows of the panel.
-#include <app/panel/area.hpp>
 #include <app/panel/rows.hpp>
 #include <array>
 #include <string>
@@ -26,7 +25,6 @@ class Help {
   /// Draws the page in the middle of the image, if it is open. A click beside it closes it. rows: those of the panel as
   /// drawn in this frame, which list themselves while the page is open.
   void draw(const Rows& rows, ImVec2 picture);
-  const Area& place() const { return place_; }  ///< where it was drawn last
 
  private:
   void draw_search();
@@ -36,7 +34,6 @@ class Help {
   bool open_ = false;
   std::array<char, 64> search_{};
   ImVec2 page_{0, 0};  ///< pixels, of the window with the whole page: it stays as large while one searches
-  Area place_;
 };
 
 }  // namespace heml::panel

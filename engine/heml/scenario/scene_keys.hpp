@@ -120,8 +120,7 @@ inline constexpr KeyInfo materials[] = {
      "required by laws with fibres, and by `active_stress`", "direction at rest, normalised when read"},
     {"active_stress", form::non_negative, "Pa", "0",
      "of contracting muscle, Ta: second Piola-Kirchhoff stress Ta a0⊗a0 along `fibre`; static scenes ramp it with "
-     "their "
-     "loads; changed by the event `active_stress`"},
+     "their loads; changed by the event `active_stress`"},
     {"volume_term", form::one_of(volume_term_names), "", "`\"quadratic\"`",
      "κ/2 (J−1)², κ/2 (ln J)² or κ/4 (J² − 1 − 2 ln J); laws with a volume term"},
     {"viscosity", form::non_negative, "Pa s", "0", "shear viscosity η: σ = 2 η ε̇ + ζ tr(ε̇) I at small strain"},

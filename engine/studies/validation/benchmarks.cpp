@@ -67,12 +67,10 @@ std::span<const Benchmark> benchmarks() {
       {"land_contraction", "Land's contracting ventricle (problem 3)",
        "The same ellipsoid of heart muscle (`guccione` with C 2 kPa, bf 8, bt 2, bfs 4), whose fibres turn from 90° "
        "inside to −90° outside, contracts with an active stress of 60 kPa against a pressure of 15 kPa inside; both "
-       "grow "
-       "together. Fibres are a field with a direction an element. Ours is the limit of κ, as in problem 2.",
+       "grow together. Fibres are a field with a direction an element. Ours is the limit of κ, as in problem 2.",
        "Land et al. 2015, problem 3: the refined solution of one participant (FEniCS), −12.347 and −15.452 mm, as "
        "TorchCor has it (github.com/sagebei/torchcor, torchcor/mechanics/benchmark/land/p3.py); not the paper's figure "
-       "9 "
-       "itself, and no mean of all codes.",
+       "9 itself, and no mean of all codes.",
        "Unknowns", "z of the apex", "m", land_contraction},
   };
   return list;
