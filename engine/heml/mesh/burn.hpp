@@ -5,9 +5,9 @@
 // 2014). How fast, depends exponentially on the temperature (Chen, Wright, Humphrey 1997), so that the highest one
 // decides; it falls with the distance from the path:
 //
-//     level 1 ────────╲              the level of an element is that of the nearest of its corners, middles of edges
-//                      ╲             and centroid; where paths lie beside each other the highest level holds, so that
-//           0           ╲────────    a path passed twice burns as one
+//     level 1 ────────╲              the level of an element is that of its nearest point, so that no path through
+//                      ╲             large elements misses all; where paths lie beside each other the highest level
+//           0           ╲────────    holds, so that a path passed twice burns as one
 //             0     r/2      r  distance
 //
 // Rest shapes go there in time (contract()), since a sudden change would throw the tissue about.

@@ -25,27 +25,20 @@ std::vector<Burn> burns_of(const TetMesh& mesh, const Sweep& sweep, const Heat& 
   return burns_after(with, sweep, mesh, mesh.nodes, full_topology(mesh));
 }
 
-/// The least distance of an element's corners, middles of edges and centroid.
-template <class Distance>
-double least_distance(const TetMesh& mesh, std::size_t t, const Distance& distance) {
-  std::array<Vec3, 4> X;
-  for (std::size_t c = 0; c < 4; ++c) X[c] = mesh.nodes[static_cast<std::size_t>(mesh.tets[t][c])];
-  std::vector<Vec3> points(X.begin(), X.end());
-  points.emplace_back((X[0] + X[1] + X[2] + X[3]) / 4);
-  for (std::size_t a = 0; a < 4; ++a)
-    for (std::size_t b = 0; b < a; ++b) points.emplace_back((X[a] + X[b]) / 2);
-  double least = 1;
-  for (const Vec3& point : points) least = std::min(least, distance(point));
-  return least;
-}
-
-/// From a segment, by sampling it.
-double sampled_distance(const TetMesh& mesh, std::size_t t, const Vec3& from, const Vec3& to) {
-  return least_distance(mesh, t, [&](const Vec3& point) {
-    double least = 1;
-    for (int k = 0; k <= 1000; ++k) least = std::min(least, (from + k * 1e-3 * (to - from) - point).norm());
-    return least;
-  });
+/// The distance of an element from the convex hull of a path's points, by Gilbert's algorithm (1966): the point of the
+/// hull of all differences that is nearest to the origin.
+double hull_distance(const TetMesh& mesh, std::size_t t, const std::vector<Vec3>& path) {
+  std::vector<Vec3> differences;
+  for (const int n : mesh.tets[t])
+    for (const Vec3& point : path) differences.push_back(point - mesh.nodes[static_cast<std::size_t>(n)]);
+  Vec3 nearest = differences[0];
+  for (int k = 0; k < 20000; ++k) {
+    const auto along = [&](const Vec3& a, const Vec3& b) { return a.dot(nearest) < b.dot(nearest); };
+    const Vec3 step = *std::min_element(differences.begin(), differences.end(), along) - nearest;
+    if (!(-step.dot(nearest) > 1e-12 * nearest.squaredNorm())) break;
+    nearest += std::min(1.0, -step.dot(nearest) / step.squaredNorm()) * step;
+  }
+  return nearest.norm();
 }
 
 }  // namespace
@@ -68,7 +61,7 @@ TEST_CASE("burn: an element has the level of its nearest point, and shrinks in p
   const std::vector<Burn> burns = burns_of(mesh, line({from, to}));
   int whole = 0, partly = 0, none = 0;
   for (std::size_t t = 0; t < burns.size(); ++t) {
-    const double level = burn_level(sampled_distance(mesh, t, from, to), heat.radius);
+    const double level = burn_level(hull_distance(mesh, t, {from, to}), heat.radius);
     CHECK(burns[t].level == doctest::Approx(level).epsilon(1e-3));
     CHECK(burns[t].shrink == doctest::Approx(0.25 * burns[t].level));
     CHECK(burns[t].scale == 1);
@@ -82,15 +75,26 @@ TEST_CASE("burn: an element has the level of its nearest point, and shrinks in p
 TEST_CASE("burn: a long electrode burns about all that it sweeps, a single place about itself") {
   const TetMesh mesh = make_box(Vec3(0.1, 0.06, 0.1), {10, 6, 10});
   const Vec3 down(0, -0.04, 0), a(0.02, 0.06, 0.047), b(0.08, 0.06, 0.047);
-  const auto to_rectangle = [](const Vec3& x) {
-    return (x - Vec3(std::clamp(x.x(), 0.02, 0.08), std::clamp(x.y(), 0.02, 0.06), 0.047)).norm();
-  };
+  const std::vector<Vec3> rectangle{a, b, b + down, a + down};
   const std::vector<Burn> swept = burns_of(mesh, {{{a, a + down}, {b, b + down}}}, {0.012, 0.2});
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    CHECK(swept[t].level == doctest::Approx(burn_level(least_distance(mesh, t, to_rectangle), 0.012)));
+    CHECK(swept[t].level == doctest::Approx(burn_level(hull_distance(mesh, t, rectangle), 0.012)).epsilon(1e-3));
   const std::vector<Burn> spot = burns_of(mesh, line({a}), {0.012, 0.2});
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    CHECK(spot[t].level == doctest::Approx(burn_level(sampled_distance(mesh, t, a, a), 0.012)));
+    CHECK(spot[t].level == doctest::Approx(burn_level(hull_distance(mesh, t, {a}), 0.012)).epsilon(1e-3));
+}
+
+TEST_CASE("burn: no place on large elements is missed, however small the electrode, on the surface or in them") {
+  const TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {2, 2, 2});
+  std::mt19937_64 random(9);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 tip(test::uniform(random, 0, 0.1), test::uniform(random, 0, 0.1), k % 2 ? 0.1 : 0.05);
+    const Sweep stab{{{tip, tip - Vec3(0, 0, 0.01)}}};
+    for (const Sweep& sweep : {line({tip}), stab}) {
+      const std::vector<Burn> burns = burns_of(mesh, sweep, {1e-4, 0.2});
+      CHECK(std::any_of(burns.begin(), burns.end(), [](const Burn& burn) { return burn.level == 1; }));
+    }
+  }
 }
 
 TEST_CASE("burn: rest shapes go on to their end by equal parts of their first length, and no further") {
