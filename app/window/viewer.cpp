@@ -90,7 +90,7 @@ std::string Viewer::status() const {
   const bool paused = is_paused();
   return fmt::format("frame {}, tick {}, {}, {}, key {}", drawn_, frame_->tick, paused ? "paused" : "running",
                      is_busy()                    ? "busy"
-                     : paused && !wants_drawing() ? "still"
+                     : paused && !wants_drawing() && open_.session->has_answered(*live_) ? "still"
                                                   : "ready",
                      last_key_);
 }

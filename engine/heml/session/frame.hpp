@@ -121,6 +121,7 @@ struct Frame {
   std::string recording_problem;              ///< why the recording ended early; empty: it did not, or there is none
   std::optional<EditReport> last_edit;        ///< of the mesh
   std::shared_ptr<const UndoList> undo_list;  ///< null before the first action
+  long requests = 0;                          ///< number of requests answered (Session::has_answered())
   long refusals = 0;                          ///< number of commands that the world refused
   std::string refusal;                        ///< reason of the last refusal
   std::string halted;                         ///< why the world has halted; empty while it steps

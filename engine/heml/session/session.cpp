@@ -18,6 +18,7 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 
 namespace heml {
 /// Whether `next` makes `command` redundant, as later mouse positions do between two ticks.
@@ -83,6 +84,7 @@ class Session::Impl {
     {
       std::lock_guard lock(mutex_);
       queue_.push_back(std::move(command));
+      ++requests_;
     }
     wake_.notify_all();
   }
@@ -113,9 +115,13 @@ class Session::Impl {
   /// asks_anew: whether frames are to be others than before.
   void publish_soon(bool asks_anew) {
     if (!asks_anew) return;
-    show_now_ = true;
+    {
+      std::lock_guard lock(mutex_);
+      ++requests_;
+    }
     wake_.notify_all();
   }
+  long requests() const { return requests_; }
 
  private:
   // Called on the engine thread.
@@ -128,7 +134,9 @@ class Session::Impl {
       if (may_tick()) one_tick();
       if (balance_) balance_threads();
       if (fast_forward_target_ > 0 && (world_->ticks() >= fast_forward_target_ || world_->halt())) end_fast_forward();
-      if (show_now_.exchange(false) || publisher_.is_due(Pacer::Clock::now())) publish();
+      if (std::exchange(show_now_, false) || published_requests_ < taken_requests_ ||
+          publisher_.is_due(Pacer::Clock::now()))
+        publish();
     }
   }
 
@@ -137,7 +145,7 @@ class Session::Impl {
     std::unique_lock lock(mutex_);
     if (fast_forward_target_ > 0) return;
     const auto wanted = [this] {
-      return stopping_ || show_now_ || !queue_.empty() || single_steps_ > 0 || fast_forward_target_ > 0;
+      return stopping_ || show_now_ || published_requests_ < requests_ || single_steps_ > 0 || fast_forward_target_ > 0;
     };
     if (playing_ && !world_->halt()) {
       wake_.wait_until(lock, pacer_.due(), [this] { return stopping_ || !playing_ || fast_forward_target_ > 0; });
@@ -168,12 +176,12 @@ class Session::Impl {
     {
       std::lock_guard lock(mutex_);
       taken_.swap(queue_);
+      taken_requests_ = requests_;
     }
     for (std::size_t i = 0; i < taken_.size(); ++i) {
       const bool overtaken = i + 1 < taken_.size() && is_overtaken(taken_[i], taken_[i + 1]);
       if (!overtaken) carry_out(taken_[i]);
     }
-    if (!taken_.empty()) show_now_ = true;
     taken_.clear();
   }
 
@@ -272,6 +280,7 @@ class Session::Impl {
 
   void publish() {
     const auto began = Pacer::Clock::now();
+    published_requests_ = taken_requests_;
     publisher_.publish(*world_, comparison_runs_ ? &*comparison_runs_ : nullptr,
                        [&](Frame& frame) { complete(frame, began); });
     if (options_.on_frame) options_.on_frame();
@@ -288,6 +297,7 @@ class Session::Impl {
     frame.recovery_file = recovery_reporter_.written();
     frame.recording_problem = recording_problem_;
     frame.undo_list = undo_list_;
+    frame.requests = taken_requests_;
     frame.refusals = refusals_;
     frame.refusal = refusal_;
   }
@@ -308,11 +318,15 @@ class Session::Impl {
   std::shared_ptr<const UndoList> undo_list_;  ///< null before the first action
   long refusals_ = 0;                          ///< number of refused commands
   std::string refusal_;                        ///< reason of the last refusal
-  mutable std::mutex mutex_;  ///< of queue_, single_steps_ and history_; locked briefly, longest by until()
+  mutable std::mutex mutex_;  ///< of queue_, requests_, single_steps_ and history_; locked briefly, longest by until()
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
+  std::atomic<long> requests_{0};  ///< commands posted and frames asked for so far
+  long taken_requests_ = 0;        ///< of them those whose results the next frame shows
+  long published_requests_ = 0;    ///< and those of the newest frame
   long single_steps_ = 0;
-  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false};
+  std::atomic<bool> playing_, stopping_{false}, finished_{false};
+  bool show_now_ = false;  ///< whether a frame is due before its time
   std::atomic<long> fast_forward_target_;  ///< the tick to fast-forward to; 0: none
 
   std::optional<BudgetController> budget_controller_;     ///< where the scene's budget is in milliseconds
@@ -350,5 +364,6 @@ void Session::enable_solid(bool wanted) {
 }
 const Frame& Session::latest() { return impl_->frames().latest(); }
 bool Session::frame_waiting() const { return impl_->frames().is_waiting(); }
+bool Session::has_answered(const Frame& frame) const { return frame.requests == impl_->requests(); }
 
 }  // namespace heml

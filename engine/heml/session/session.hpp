@@ -61,6 +61,9 @@ class Session {
   void enable_solid(bool wanted);      ///< whether Frame::solid and what goes with it is filled from now on
   const Frame& latest();               ///< the newest frame; unchanged until the next call
   bool frame_waiting() const;          ///< whether latest() would return a newer one
+  /// Whether a frame of this session shows the results of every command posted and of everything else that it was asked
+  /// to show. Of play(), pause() and steps Frame::paused and Frame::tick tell.
+  bool has_answered(const Frame& frame) const;
 
   /// Returns the scene with the commands before a frame of this session as its events, and the frame's tick as
   /// Scene::recorded_ticks. A session of it that fast-forwards there reaches the same state to the bit.

@@ -169,6 +169,32 @@ TEST_CASE("pause holds the body, one step is one tick, and commands are taken wh
   CHECK(wait_for(session, [](const Frame& f) { return f.time == 0; }).tick > 50);
 }
 
+TEST_CASE("a frame tells whether it shows all that was posted and asked for, played or paused") {
+  SessionOptions options;
+  options.start_paused = true;
+  Session session(small_scene(), options);
+  const auto answered = [&](const Frame& f) { return session.has_answered(f); };
+  for (const bool playing : {false, true}) {
+    CAPTURE(playing);
+    if (playing) session.play();
+    const Frame before = wait_for(session, [&](const Frame& f) { return answered(f) && f.paused != playing; });
+    session.post(Grasp{30, 0.01});
+    session.post(MoveTool{Vec3(0.2, 0, 0)});
+    CHECK_FALSE(answered(before));
+    const Frame grasped = wait_for(session, answered);
+    CHECK(grasped.tools.size() == 1);
+    CHECK(grasped.commands >= before.commands + 2);
+    session.post(Release{});
+    session.show(playing ? Field::stretch : Field::displacement);
+    CHECK_FALSE(answered(grasped));
+    const Frame& shown = wait_for(session, answered);
+    CHECK(shown.tools.empty());
+    CHECK_FALSE(shown.values.empty());
+    session.post(Grasp{-1, 0.01});  // refused, which is an answer too
+    CHECK(wait_for(session, answered).refusals == (playing ? 2 : 1));
+  }
+}
+
 TEST_CASE("removed elements leave the frames' surface mesh, and a reset brings them back") {
   SessionOptions options;
   options.start_paused = true;
