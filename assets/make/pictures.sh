@@ -27,4 +27,5 @@ kidney_on_table 1.6
 kidney_on_pad 1.4
 strip_tears 1.0
 energy_law 0.5
+ventricle 0.32
 END

@@ -1,12 +1,17 @@
 // The committed meshes and scenes are what assets/README.md says of them.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/scene.hpp>
+#include <heml/scenario/schedule.hpp>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <places.hpp>
 #include <set>
 #include <string>
@@ -105,6 +110,54 @@ TEST_CASE("the irregular cube has exactly the paper's size and fills a decimetre
   CHECK(report.volume == doctest::Approx(1e-3).epsilon(1e-6));
 }
 
+TEST_CASE("the ventricle is a truncated ellipsoid whose fibres lie in the wall, and shortens as it contracts") {
+  const TetMesh mesh = read_tet_mesh(assets / "meshes/ventricle.vtu");
+  CHECK(mesh.tets.size() == 4536);
+  const QualityReport report = check_sound(mesh, 17);
+  const auto cup = [](double across, double along) {
+    const double top = 0.0175;
+    return std::numbers::pi * across * across * (2 * along / 3 + top - top * top * top / (3 * along * along));
+  };
+  CHECK(report.volume == doctest::Approx(cup(0.035, 0.07) - cup(0.0245, 0.0595)).epsilon(0.02));  // flat faces
+  REQUIRE(mesh.fields.size() == 1);
+  REQUIRE(mesh.fields[0].values.size() == 3 * mesh.tets.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    Vec3 middle = Vec3::Zero();
+    for (const int n : mesh.tets[t]) middle += mesh.nodes[static_cast<std::size_t>(n)] / 4;
+    const double across = middle.x() * middle.x() + middle.z() * middle.z(), along = middle.y() * middle.y();
+    double in = 0, out = 0.0105;  // m, from the inner ellipsoid
+    while (out - in > 1e-9) {
+      const double half = (in + out) / 2, a = 0.0245 + half, c = 0.0595 + half;
+      (across / (a * a) + along / (c * c) > 1 ? in : out) = half;
+    }
+    const double a = 0.0245 + in, c = 0.0595 + in;
+    const Vec3 outward = Vec3(middle.x() / (a * a), middle.y() / (c * c), middle.z() / (a * a)).normalized();
+    const Vec3 fibre(&mesh.fields[0].values[3 * t]);
+    CHECK(fibre.norm() == doctest::Approx(1).epsilon(1e-5));
+    CHECK(std::abs(fibre.dot(outward)) < 1e-4);
+  }
+  const auto world = load_world(read_scene(assets / "scenes/ventricle.json"));
+  const auto lowest = [&] {
+    std::vector<Vec3f> positions;
+    std::vector<int> nodes(mesh.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    world->write_positions(nodes, 0, positions);
+    float low = 1;
+    for (const Vec3f& x : positions) low = std::min(low, x.y());
+    return low;
+  };
+  CHECK(lowest() == doctest::Approx(-0.07));
+  Schedule schedule(read_scene(assets / "scenes/ventricle.json"), world->setup().mesh);
+  float highest = -1;
+  while (world->time() < 0.8) {
+    for (const Event& event : schedule.due(world->ticks())) CHECK(world->apply(event.command).ok());
+    world->tick();
+    highest = std::max(highest, lowest());
+  }
+  CHECK(highest > -0.062f);
+  CHECK(lowest() == doctest::Approx(-0.07).epsilon(0.02));
+}
+
 TEST_CASE("every scene can be read, and runs for a while") {
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(assets / "scenes")) {
@@ -121,7 +174,7 @@ TEST_CASE("every scene can be read, and runs for a while") {
     CHECK(std::filesystem::exists(assets / "pictures/scenes" / (scene.name + ".png")));
     ++scenes;
   }
-  CHECK(scenes == 17);
+  CHECK(scenes == 18);
 }
 
 TEST_CASE("every scene of the accuracy study can be read") {
