@@ -2,9 +2,9 @@
 
 namespace heml::window {
 
-/// As the scalpel's edge; without depth it is its tip alone, on the skin.
-std::array<Vec3, 2> Cautery::electrode_at(const render::Vec2f& at) const {
-  return blade_at(controller_, at, anchor_, tool_.burn_depth);
+std::array<Vec3, 2> Cautery::electrode_on(const render::Hit& skin) {
+  anchor_ = skin.point;  // follows the relief of the surface
+  return blade_at(controller_, at_, skin.point, tool_.burn_depth);
 }
 
 void Cautery::burn(Sweep sweep, std::vector<Command>& out) {
@@ -15,13 +15,14 @@ void Cautery::burn(Sweep sweep, std::vector<Command>& out) {
   continues_stroke_ = true;
 }
 
-void Cautery::press(const render::Hit& hit, const render::Vec2f& at, const panel::ToolSettings& tool,
+void Cautery::press(const std::optional<render::Hit>& hit, const render::Vec2f& at, const panel::ToolSettings& tool,
                     std::vector<Command>& out) {
   tool_ = tool;
   at_ = at;
-  anchor_ = hit.point;
+  anchor_.reset();
   continues_stroke_ = false;
-  burn({{electrode_at(at)}}, out);
+  is_lifted_ = !hit;
+  if (hit) burn({{electrode_on(*hit)}}, out);
 }
 
 void Cautery::drag(const render::Vec2f& at, const std::optional<render::Hit>& hit, std::vector<Command>& out) {
@@ -30,17 +31,16 @@ void Cautery::drag(const render::Vec2f& at, const std::optional<render::Hit>& hi
     is_lifted_ = true;
     return;
   }
-  if ((at - burnt_to_).norm() < min_stroke) return;
-  anchor_ = hit->point;  // follows the relief of the surface
+  if (continues_stroke_ && (at - burnt_to_).norm() < min_stroke) return;
   if (is_lifted_)
-    burn({{electrode_at(at)}}, out);
+    burn({{electrode_on(*hit)}}, out);
   else
-    burn({{last_, electrode_at(at)}}, out);
+    burn({{last_, electrode_on(*hit)}}, out);
 }
 
 render::StrokeDrawing Cautery::drawing() const {
   render::StrokeDrawing drawing;
-  drawing.electrode = render::Electrode{controller_.drag(at_, anchor_)};
+  if (anchor_) drawing.electrode = render::Electrode{controller_.drag(at_, *anchor_)};
   return drawing;
 }
 

@@ -19,6 +19,11 @@ Status MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift,
     begin_stroke(at, tool.depth, frame, surface_mesh);
     return {};
   }
+  if (button == MouseButton::left && tool.tool == panel::Tool::cautery) {
+    interaction_ = Interaction::burning;
+    cautery_.press(pick(at, frame, surface_mesh), at, tool, out);
+    return {};
+  }
   if (button == MouseButton::left && tool.tool == panel::Tool::grasper)
     if (const auto clamp = clamp_at(at, frame, surface_mesh, controller_))
       return take_up(*clamp, at, frame, surface_mesh, out);
@@ -32,11 +37,6 @@ Status MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift,
       if (tool.tool == panel::Tool::scissors) {
         interaction_ = Interaction::snipping;
         scissors_.press(*hit, at, tool, {frame, surface_mesh, section_});
-        return {};
-      }
-      if (tool.tool == panel::Tool::cautery) {
-        interaction_ = Interaction::burning;
-        cautery_.press(*hit, at, tool, out);
         return {};
       }
       begin_probing(*hit, tool, at, out);

@@ -259,6 +259,25 @@ class Tools(WindowCase):
         self.assertEqual(self.seen("history"), [-1, -1, 1])
         self.verify()
 
+    def test_cautery_pressed_beside_the_body_burns_from_where_it_comes_upon_it(self):
+        self.open_display(1280, 720)
+        self.begin_light("--record", "out.jsonl", size="1280x720")
+        self.xdo("mousemove", 1278, 718, "key", "d", "key", "space")
+        x, y = self.steady().tissue(300, 1010)
+        self.do("mousemove", 360, y)
+        self.do("mousedown", 1)
+        self.do("mousemove", 364, y)
+        self.do("mouseup", 1)
+        self.assertEqual(self.seen("cauterize"), [], "nothing is there to burn")
+        self.drag((360, y), (x - 360, 0), steps=12)
+        self.wait_for_event("cauterize", 2)
+        self.quit()
+        burns = self.seen("cauterize")
+        self.assertEqual([burn.get("goes_on", False) for burn in burns], [False] + [True] * (len(burns) - 1))
+        for before, after in zip(burns, burns[1:]):
+            self.assertEqual(before["sweep"][-1], after["sweep"][0], "the stroke has no gap")
+        self.verify()
+
     def test_a_stroke_from_beside_the_body_to_its_other_side_takes_the_edges_along(self):
         self.open_display(1280, 720)
         at_rest = {**light_scene(), "gravity": [0, 0, 0]}  # whenever it is paused
