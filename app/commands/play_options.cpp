@@ -1,14 +1,12 @@
 // Options of the commands that play a scene.
 #include <app/commands/command_line.hpp>
 #include <app/commands/number_options.hpp>
+#include <app/commands/scene_option.hpp>
 #include <heml/scenario/standard_view.hpp>
 #include <memory>
 
 namespace heml {
 namespace {
-
-constexpr const char* scene_help = "scene, recording, mesh or surface";
-constexpr const char* scene_or_default_help = "scene, recording, mesh or surface; none: the default scene";
 
 void add_comparisons(CLI::App& command, std::vector<std::string>& comparisons) {
   command
@@ -40,7 +38,7 @@ constexpr const char* frame_size_help = "size of frames, pixels";
 Action define_run(CLI::App& command) {
   const auto given = std::make_shared<RunArguments>();
   const auto size = std::make_shared<std::string>();
-  command.add_option("SCENE", given->scene, scene_or_default_help);
+  add_scene_or_default(command, given->scene);
   command.add_option("--record", given->record, "append every action to this recording (.jsonl)")->type_name("FILE");
   add_comparisons(command, given->comparisons);
   command.add_option("--size", *size, "size of the window, pixels; else as it was left, at first 1280x720")
@@ -62,7 +60,7 @@ Action define_run(CLI::App& command) {
 Action define_capture(CLI::App& command) {
   const auto given = std::make_shared<CaptureArguments>();
   const auto size = std::make_shared<std::string>(usual_size);
-  command.add_option("SCENE", given->scene, scene_or_default_help);
+  add_scene_or_default(command, given->scene);
   command.add_option("--out", given->out, "folder for frame_00000.png ...")->required()->type_name("DIR");
   command.add_option("--frames", given->frames, "how many")
       ->capture_default_str()
@@ -85,8 +83,10 @@ Action define_capture(CLI::App& command) {
 Action define_replay(CLI::App& command) {
   const auto given = std::make_shared<ReplayArguments>();
   const auto size = std::make_shared<std::string>(usual_size);
-  command.add_option("RECORDING", given->recording, "what `heml run --record` wrote, or a scene with events")
-      ->required();
+  takes_scene(command
+                  .add_option("RECORDING", given->recording,
+                              "what `heml run --record` wrote, or a scene with events, or the name of an installed one")
+                  ->required());
   auto* verify = command.add_flag("--verify", given->verify,
                                   "compare every checkpoint and the end; exit 1 where one differs or is missing");
   command.add_flag("--partial", given->partial, "with --verify: the recording was cut short by a crash and has no end")
@@ -117,14 +117,14 @@ Action define_replay(CLI::App& command) {
 
 Action define_solve(CLI::App& command) {
   const auto given = std::make_shared<SolveArguments>();
-  command.add_option("SCENE", given->scene, scene_help)->required();
+  add_scene(command, given->scene);
   command.add_option("--out", given->out, "folder for the results")->required()->type_name("DIR");
   return [given] { return solve_scene(*given); };
 }
 
 Action define_export(CLI::App& command) {
   const auto given = std::make_shared<ExportArguments>();
-  command.add_option("SCENE", given->scene, scene_help)->required();
+  add_scene(command, given->scene);
   command.add_option("--out", given->out, "folder for frame_00000.vtu ..., or a file name in .glb or .usda")
       ->required()
       ->type_name("DIR");
@@ -141,7 +141,7 @@ Action define_export(CLI::App& command) {
 
 Action define_explain(CLI::App& command) {
   const auto given = std::make_shared<ExplainArguments>();
-  command.add_option("SCENE", given->scene, scene_help)->required();
+  add_scene(command, given->scene);
   command.add_flag("--json", given->json, "for programs: numbers with 17 digits");
   command.add_flag("--measure", given->measure,
                    "run each feature on and off: its cost, and the error of leaving it out");
@@ -154,7 +154,7 @@ Action define_explain(CLI::App& command) {
 
 Action define_haptics(CLI::App& command) {
   const auto given = std::make_shared<HapticsArguments>();
-  command.add_option("SCENE", given->scene, "scene with a grasp, or a recording of one")->required();
+  takes_scene(command.add_option("SCENE", given->scene, "scene with a grasp, or a recording of one")->required());
   command.add_option("--hand", given->handle, "CSV of the handle: time,x,y,z in seconds and metres")
       ->required()
       ->type_name("FILE");

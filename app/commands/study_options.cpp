@@ -1,6 +1,7 @@
 // Options of the commands about materials, meshes and measurements, and of the reference pages.
 #include <app/commands/command_line.hpp>
 #include <app/commands/number_options.hpp>
+#include <app/commands/scene_option.hpp>
 #include <memory>
 
 namespace heml {
@@ -95,7 +96,7 @@ Action define_mesh(CLI::App& command) {
 
 Action define_refine(CLI::App& command) {
   const auto given = std::make_shared<RefineArguments>();
-  command.add_option("SCENE", given->scene, "scene, recording, mesh or surface")->required();
+  add_scene(command, given->scene);
   command.add_option("--out", given->out, "folder for scene.json and its mesh.vtu")->required()->type_name("DIR");
   command
       .add_option("--error", given->error,
@@ -115,7 +116,7 @@ Action define_refine(CLI::App& command) {
 
 Action define_tune(CLI::App& command) {
   const auto given = std::make_shared<TuneArguments>();
-  command.add_option("SCENE", given->scene, "scene, recording, mesh or surface")->required();
+  add_scene(command, given->scene);
   command
       .add_option("--within", given->within,
                   "the least error within so much computing time a frame of 1/60 s, for example 16ms")
@@ -129,7 +130,7 @@ Action define_tune(CLI::App& command) {
 
 Action define_fit(CLI::App& command) {
   const auto given = std::make_shared<FitArguments>();
-  command.add_option("SCENE", given->scene, "scene, recording, mesh or surface")->required();
+  add_scene(command, given->scene);
   command.add_option("--data", given->data, "measured places of nodes, CSV")->type_name("FILE")->required();
   command
       .add_option("--parameter", given->parameters,
@@ -162,7 +163,8 @@ Action define_study(CLI::App& command) {
       ->required()
       ->type_name("DIR");
   command.add_flag("--quick", given->quick, "within two minutes: fewer and smaller cases");
-  command.add_option("--scene", given->scene, "accuracy: of this scene instead of the study's own")->type_name("FILE");
+  takes_scene(command.add_option("--scene", given->scene, "accuracy: of this scene instead of the study's own"))
+      ->type_name("SCENE");
   command
       .add_option("--case", given->cases,
                   "stability and accuracy: these of its cases alone, by number (may be given often)")

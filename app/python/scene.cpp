@@ -4,6 +4,7 @@
 #include <app/python/bindings.hpp>
 #include <app/python/json_objects.hpp>
 #include <heml/base/write_file.hpp>
+#include <heml/scenario/installed_scene.hpp>
 
 namespace heml::python {
 
@@ -36,14 +37,14 @@ void unpickle_scene(Scene& scene, const nb::tuple& state) {
 Scene scene_from(nb::handle given) {
   if (nb::isinstance<Scene>(given)) return nb::cast<const Scene&>(given);
   if (nb::isinstance<nb::dict>(given)) return parse_scene(json_text(json_from(given, dict_name), dict_name), dict_name);
-  return read_scene(path_text(given));
+  return read_scene(scene_path(path_text(given)));
 }
 
 void bind_scene(nb::module_& module) {
   nb::class_<Scene>(module, "Scene",
                     "A scene: mesh, materials, supports, loads, solver, events. Made from a file (scene, recording, "
-                    "mesh or surface) or from a dict as in scene files; paths in a dict are relative to the working "
-                    "directory. Can be pickled.")
+                    "mesh or surface), the name of an installed scene (\"cantilever\"), or a dict as in scene files; "
+                    "paths in a dict are relative to the working directory. Can be pickled.")
       .def(
           "__init__", [](Scene* self, nb::object path_or_dict) { new (self) Scene(scene_from(path_or_dict)); },
           "path_or_dict"_a, "Throws InputError for what is wrong, naming the key.",

@@ -265,6 +265,16 @@ class CommandLine(ProgramCase):
         self.assert_refused(heml("haptics", self.folder / "scene.json", "--hand", self.write("no.csv", "a\n"), "--out",
                                  self.folder / "felt.csv"), 3, "no.csv", "line 1", "time,x,y,z")
 
+    def test_installed_scenes_are_found_by_name_where_no_file_has_it(self):
+        here = self.folder / "by_name"
+        here.mkdir()
+        by_name = heml("explain", "strip_tears", "--json", cwd=here)
+        self.assertEqual(by_name.returncode, 0, by_name.stderr)
+        self.assertEqual(json.loads(by_name.stdout)["name"], "strip_tears")
+        missing = heml("solve", "no_such_scene", "--out", here / "out", cwd=here)
+        self.assertEqual(missing.returncode, 3)
+        self.assertIn("no_such_scene", missing.stderr)
+
     def test_wrong_usage_is_exit_2(self):
         scene = self.write("scene.json", cantilever())
         for arguments in (["capture", scene], ["bogus"], ["solve", scene], ["capture", scene, "--out", "x", "--size", "big"],

@@ -6,6 +6,13 @@ import pytest
 import heml
 
 
+def test_an_installed_scene_is_found_by_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert heml.Scene("cantilever").name == "cantilever"
+    with pytest.raises(heml.InputError, match="no_such_scene"):
+        heml.Scene("no_such_scene")
+
+
 def test_a_dict_goes_through_a_scene_and_back(box):
     scene = heml.Scene(box(name="box", gravity=np.array([0, 0, -1.5])))
     assert scene.name == "box"
