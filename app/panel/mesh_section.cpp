@@ -153,9 +153,9 @@ bool MeshSection::draw_size(Rows& rows, BareMeshOptions& options) const {
           {"Length", fmt::format("Longest side of the body's box, cm. Click to type it where no unit is right, {:g} "
                                  "to {:g} cm: the body is scaled to it.",
                                  min_length, max_length)},
-          centimetres, "%.4g cm")) {
+          centimetres, {min_length, max_length, "%.4g cm"})) {
     const double file_length = chosen_->length / chosen_->scale;
-    options.unit = LengthUnit{"", std::clamp(centimetres, min_length, max_length) / 100 / file_length};
+    options.unit = LengthUnit{"", centimetres / 100 / file_length};
     changed = true;
   }
   return changed;

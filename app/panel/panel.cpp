@@ -194,6 +194,7 @@ PanelActions Panel::draw(const Frame& frame) {
   help_.draw(rows_, picture);
   dialog_.draw(rows_, picture, out);
   out.answer = question_.draw(rows_, picture);
+  if (std::string notice = rows_.take_notice(); !notice.empty()) notify(std::move(notice));
   perform_queued(frame, out);
   return out;
 }

@@ -145,7 +145,7 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   draw_track(place_of(value, range));
   for (const auto which : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
     ImGui::PushStyleColor(which, 0);
-  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const ImGuiSliderFlags flags = range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
   double edited = value;
   ImGui::PushID(label.text.c_str());
   bool changed =
@@ -159,22 +159,32 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
                                label.hint, formatted(range.format, range.low), formatted(range.format, range.high))});
   // Unit conversion there and back changes the last bits: not an edit.
   const bool same = std::abs(edited - value) <= 1e-9 * std::max(std::abs(edited), std::abs(value));
-  if (!changed || same || !std::isfinite(edited)) return false;
-  value = edited;
-  return true;
+  if (!changed || same || std::isnan(edited)) return false;
+  const double before = std::exchange(value, limited(label, edited, range));
+  return value != before;
 }
 
-bool Rows::number(const Label& label, double& value, const char* format) {
+/// A typed number, or the end of the range that it is beyond, which is said.
+double Rows::limited(const Label& label, double typed, const SliderRange& range) {
+  const double taken = std::clamp(typed, range.low, range.high);
+  if (formatted(range.format, taken) != formatted(range.format, typed))
+    notice_ = fmt::format("{}: {} is not between {} and {}; it is {} now.", label.text, formatted(range.format, typed),
+                          formatted(range.format, range.low), formatted(range.format, range.high),
+                          formatted(range.format, taken));
+  return taken;
+}
+
+bool Rows::number(const Label& label, double& value, const SliderRange& range) {
   begin(label);
   const std::string name = "##" + label.text;
   double edited = value;
-  bool changed = ImGui::InputScalar(name.c_str(), ImGuiDataType_Double, &edited, nullptr, nullptr, format);
+  bool changed = ImGui::InputScalar(name.c_str(), ImGuiDataType_Double, &edited, nullptr, nullptr, range.format);
   const bool active = ImGui::IsItemActive();
   explain(label);
   if (is_typing(ImGui::GetID(name.c_str()), active, changed, edited) || !changed) return false;
-  if (!std::isfinite(edited) || formatted(format, edited) == formatted(format, value)) return false;
-  value = edited;
-  return true;
+  if (std::isnan(edited) || formatted(range.format, edited) == formatted(range.format, value)) return false;
+  const double before = std::exchange(value, limited(label, edited, range));
+  return value != before;
 }
 
 bool Rows::vector(const Label& label, Vec3& value, const char* format) {

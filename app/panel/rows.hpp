@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace heml::panel {
 
@@ -16,7 +17,7 @@ struct Label {
   std::string hint;  ///< meaning and unit
 };
 
-/// Range of a slider; logarithmic ones start above 0. A value outside extends the range.
+/// Range of a number; logarithmic ones start above 0. A value outside extends the range of a slider.
 struct SliderRange {
   double low = 0, high = 1;
   const char* format = "%.3g";  ///< with the unit
@@ -34,9 +35,11 @@ class Rows {
   /// True when the user changed the value.
   bool slider(const Label& label, double& value, const SliderRange& range);
   /// A number to type. True when it was changed: on Enter, Tab, or a click elsewhere.
-  bool number(const Label& label, double& value, const char* format);
+  bool number(const Label& label, double& value, const SliderRange& range);
   /// Three numbers to type. True when one was changed: on Enter, Tab, or a click elsewhere.
   bool vector(const Label& label, Vec3& value, const char* format);
+  /// What became of a number typed outside its range, once; empty: nothing.
+  std::string take_notice() { return std::exchange(notice_, {}); }
   /// A text to type, of at most so many bytes.
   void text(const Label& label, std::string& value, std::size_t most);
   /// hints: a tooltip per name, or none. An index outside the names shows "–".
@@ -92,6 +95,7 @@ class Rows {
   void begin(const Label& label);
 
   bool is_typing(ImGuiID id, bool active, bool& changed, double& edited);
+  double limited(const Label& label, double typed, const SliderRange& range);
 
   struct Typed {
     ImGuiID id;
@@ -105,6 +109,7 @@ class Rows {
   float room_ = 0;  ///< leave_room()
   std::map<std::string, bool> sections_;
   std::optional<Typed> typed_;  ///< the number that is being typed
+  std::string notice_;          ///< take_notice()
 };
 
 /// Text aligned with the right edge of the window, on the current line.

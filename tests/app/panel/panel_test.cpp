@@ -146,7 +146,7 @@ TEST_CASE("gravity, damping and the integrator are sent when changed") {
   CHECK(std::get<SetGravity>(direction.commands.front()).gravity.x() == doctest::Approx(g.norm()));
 }
 
-TEST_CASE("a typed number is set by Enter alone, and Esc keeps the old one") {
+TEST_CASE("a typed number is set by Enter alone, Esc keeps the old one, and one beyond the range is not cut in silence") {
   Driver driver;
   ImGuiIO& io = ImGui::GetIO();
   io.KeyMap[ImGuiKey_Enter] = 1, io.KeyMap[ImGuiKey_Escape] = 2;
@@ -173,6 +173,12 @@ TEST_CASE("a typed number is set by Enter alone, and Esc keeps the old one") {
   const auto again = type("4", 1);
   REQUIRE(again.commands.size() == 1);
   CHECK(std::get<SetDamping>(again.commands.front()).damping == 4);
+  CHECK_FALSE(driver.panel.animating());
+  const auto beyond = type("500", 1);
+  REQUIRE(beyond.commands.size() == 1);
+  CHECK(std::get<SetDamping>(beyond.commands.front()).damping == 20);
+  CHECK(driver.panel.animating());  // a notice of it
+  CHECK(type("1e999", 1).commands.empty());  // the end of the range already
 }
 
 TEST_CASE("a gravity along no axis keeps its direction") {
