@@ -146,7 +146,7 @@ TEST_CASE("gravity, damping and the integrator are sent when changed") {
   CHECK(std::get<SetGravity>(direction.commands.front()).gravity.x() == doctest::Approx(g.norm()));
 }
 
-TEST_CASE("a typed number is set by Enter alone, Esc keeps the old one, and one beyond the range is not cut in silence") {
+TEST_CASE("a typed number is set by Enter alone, Esc keeps the old one, one beyond the range is cut with a notice") {
   Driver driver;
   ImGuiIO& io = ImGui::GetIO();
   io.KeyMap[ImGuiKey_Enter] = 1, io.KeyMap[ImGuiKey_Escape] = 2;
