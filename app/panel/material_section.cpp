@@ -52,7 +52,7 @@ void MaterialSection::take(const std::vector<RegionMaterial>& materials, const s
       chosen_ = static_cast<int>(&entry - materials_.data());
       continue;
     }
-    if (!entry.material.fields.empty() || !entry.material.fibre_field.empty()) entry.material = old->material;
+    if (!entry.material.fields.empty()) entry.material = old->material;
     changed |= !(entry.material == old->material);
   }
   if (chosen_ >= std::ssize(materials_)) chosen_ = 0;

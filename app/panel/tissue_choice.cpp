@@ -9,9 +9,8 @@ namespace {
 Material with_preset(const Material& material, const Preset& preset) {
   Material result = preset.material;
   result.density = material.density;
-  if (!find_law(result.law)->has_fibre) return result;
-  if (!material.fibre.isZero()) result.fibre = material.fibre;
   result.fibre_field = material.fibre_field;
+  if (find_law(result.law)->has_fibre && !material.fibre.isZero()) result.fibre = material.fibre;
   return result;
 }
 

@@ -24,7 +24,7 @@ Material match_moduli(const Material& material, const LawInfo& from, const LawIn
   if (!to.is_continuum) result.active_stress = 0;
   if (!to.has_fibre && result.active_stress == 0) {
     result.fibre = Vec3::Zero();
-    result.fibre_field.clear();
+    if (!to.is_continuum) result.fibre_field.clear();  // else it stays, since nobody could give it again
   } else if (to.has_fibre && result.fibre_field.empty() && result.fibre.isZero()) {
     result.fibre = Vec3::UnitX();
   }

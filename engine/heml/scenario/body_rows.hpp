@@ -16,10 +16,12 @@ struct Row<SetMaterial> : CommonRow {
                                     meaning =
                                         "replaces the material of a region, or the default; the body goes on, other "
                                         "materials with their internal state";
-  static constexpr ValueForm value_form = form::other("entry as of the scene's `materials`, without fields");
+  static constexpr ValueForm value_form = form::other(
+      "entry as of the scene's `materials`; no field of the mesh but the fibre's, where the material has it already");
   static Command read(const JsonCursor& value, Points&) {
     const RegionMaterial entry = material_from(value);
-    if (uses_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
+    if (!entry.material.fields.empty())
+      value.fail("takes a field of the mesh", "a material switched to takes numbers, but for its fibre");
     return SetMaterial{entry.region, entry.material};
   }
   static Json write(const SetMaterial& set) { return material_json({set.region, set.material}); }

@@ -58,8 +58,9 @@ Status CommandExecutor<Real>::refused(const Material& material, const RegionMate
     if (solver.nodal_pressure && !solver.quadratic && &other != replaced &&
         other.material.volume_term != material.volume_term)
       return "material.volume_term: with nodal pressure it must be that of the other materials";
-  if (!material.fields.empty() || !material.fibre_field.empty())
-    return "material: a switched material takes numbers, not fields";
+  if (!material.fields.empty()) return "material: a switched material takes numbers, not fields";
+  if (!material.fibre_field.empty() && (!replaced || replaced->material.fibre_field != material.fibre_field))
+    return "material.fibre: a switched material takes the field of the one before, or a direction";
   if (const auto problem = material_problem(material))
     return fmt::format("material.{}: {}", problem->first, problem->second);
   if (solver.continuation && find_energy_law(material.law))

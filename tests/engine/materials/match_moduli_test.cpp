@@ -82,4 +82,17 @@ TEST_CASE("settings that the new law does not support are dropped") {
   CHECK(replaced(turned, "hgo").fibre == Vec3::UnitZ());
 }
 
+TEST_CASE("a field of fibres stays with every continuum law, a direction with those that need it") {
+  Material muscle = replaced(soft_tissue(), "hgo");
+  muscle.fibre = Vec3::Zero();
+  muscle.fibre_field = "fibre";
+  for (const LawInfo& law : laws()) {
+    CAPTURE(law.name);
+    const Material other = replaced(muscle, law.name);
+    CHECK_FALSE(material_problem(other));
+    CHECK(other.fibre_field == (law.is_continuum ? "fibre" : ""));
+  }
+  CHECK(replaced(replaced(soft_tissue(), "hgo"), "stvk").fibre == Vec3::Zero());
+}
+
 }  // namespace heml::match_moduli_test

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <heml/materials/match_moduli.hpp>
 #include <heml/mesh/quadratic.hpp>
 
 #include "world_support.hpp"
@@ -114,6 +115,37 @@ TEST_CASE("active stress: what cannot be is refused and changes nothing") {
   plain.materials[0].material.fibre = Vec3::Zero();
   const auto other = make_world(plain);
   CHECK(other->apply(SetActiveStress{std::nullopt, 100}).message().find("no fibre") != std::string::npos);
+}
+
+TEST_CASE("active stress: a muscle with a field of fibres takes other numbers and laws, and no other field") {
+  const auto muscle = [](const char* law, double stress) {
+    WorldSetup setup = block(Integrator::verlet, false, stress);
+    Material& material = setup.materials[0].material;
+    material = match_moduli(material, *find_law(material.law), *find_law(law));
+    material.fibre = Vec3::Zero();
+    material.fibre_field = "f";
+    ElementField field{"f", 3, {}};
+    for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t)
+      field.values.insert(field.values.end(),
+                          {std::cos(0.3 * static_cast<double>(t)), 0, std::sin(0.3 * static_cast<double>(t))});
+    setup.mesh.fields.push_back(field);
+    return setup;
+  };
+  const auto positions = [](World& world) {
+    for (int k = 0; k < 50; ++k) world.tick();
+    CHECK_FALSE(world.halt());
+    return world.positions();
+  };
+  for (const char* law : {"guccione", "hgo", "stvk", "neo_hookean"}) {
+    CAPTURE(law);
+    const auto direct = make_world(muscle(law, 2000));
+    const auto switched = make_world(muscle(law == std::string("hgo") ? "yeoh" : "hgo", 2000));
+    Material material = direct->setup().materials[0].material;
+    expect(switched->apply(SetMaterial{std::nullopt, material}));
+    CHECK(positions(*switched) == positions(*direct));
+    material.fibre_field = "g";
+    CHECK(switched->apply(SetMaterial{std::nullopt, material}).message().find("material.fibre") == 0);
+  }
 }
 
 TEST_CASE("active stress: the pieces of a cut muscle pull as the whole did, with fibres of a field") {
