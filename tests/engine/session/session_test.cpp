@@ -195,6 +195,27 @@ TEST_CASE("a frame tells whether it shows all that was posted and asked for, pla
   }
 }
 
+TEST_CASE("a frame of a tick under way when a command came does not count as its answer") {
+  std::atomic<bool> in_tick{false};
+  std::atomic<int> allowed{0};
+  SessionOptions options;
+  options.before_tick = [&] {
+    in_tick = true;
+    for (int wait = 0; allowed == 0 && wait < 5000; ++wait) std::this_thread::sleep_for(2ms);
+    --allowed;
+  };
+  Session session(small_scene(), options);
+  for (int wait = 0; !in_tick && wait < 5000; ++wait) std::this_thread::sleep_for(2ms);
+  session.post(Grasp{30, 0.01});
+  std::this_thread::sleep_for(20ms);  // a frame is due after the tick
+  allowed = 1;
+  const Frame& before = wait_for(session, [](const Frame& f) { return f.tick == 1; });
+  CHECK(before.tools.empty());
+  CHECK_FALSE(session.has_answered(before));
+  allowed = 1'000'000;
+  CHECK(wait_for(session, [&](const Frame& f) { return session.has_answered(f); }).tools.size() == 1);
+}
+
 TEST_CASE("removed elements leave the frames' surface mesh, and a reset brings them back") {
   SessionOptions options;
   options.start_paused = true;
