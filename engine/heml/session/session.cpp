@@ -62,15 +62,21 @@ class Session::Impl {
     publish();
     thread_ = std::thread([this] {
       run();
+      std::lock_guard lock(mutex_);
       finished_ = true;
+      ended_.notify_one();
     });
   }
 
   ~Impl() {
-    stopping_ = true;
-    wake_.notify_all();
-    // Let the tick under way end, so that the recording ends with it; interrupt it after 0.5 s.
-    for (int wait = 0; wait < 100 && !finished_; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    {
+      // Locked: a flag set between the engine thread's look at it and its sleep would not wake it.
+      std::unique_lock lock(mutex_);
+      stopping_ = true;
+      wake_.notify_all();
+      // Let the tick under way end, so that the recording ends with it; interrupt it after 0.5 s.
+      ended_.wait_for(lock, std::chrono::milliseconds(500), [this] { return finished_; });
+    }
     world_->interrupt();
     if (comparison_runs_) comparison_runs_->interrupt();
     thread_.join();
@@ -318,14 +324,15 @@ class Session::Impl {
   std::shared_ptr<const UndoList> undo_list_;  ///< null before the first action
   long refusals_ = 0;                          ///< number of refused commands
   std::string refusal_;                        ///< reason of the last refusal
-  mutable std::mutex mutex_;  ///< of queue_, requests_, single_steps_ and history_; locked briefly, longest by until()
-  std::condition_variable wake_;
+  mutable std::mutex mutex_;  ///< of what wakes the engine thread, and of history_; locked briefly, longest by until()
+  std::condition_variable wake_, ended_;
   std::vector<Command> queue_, taken_;
   std::atomic<long> requests_{0};  ///< commands posted and frames asked for so far
   long taken_requests_ = 0;        ///< of them those whose results the next frame shows
   long published_requests_ = 0;    ///< and those of the newest frame
   long single_steps_ = 0;
-  std::atomic<bool> playing_, stopping_{false}, finished_{false};
+  std::atomic<bool> playing_, stopping_{false};
+  bool finished_ = false;  ///< whether the engine thread has ended
   bool show_now_ = false;  ///< whether a frame is due before its time
   std::atomic<long> fast_forward_target_;  ///< the tick to fast-forward to; 0: none
 

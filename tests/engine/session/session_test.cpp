@@ -455,6 +455,20 @@ TEST_CASE("during a replay no choice depends on the clock") {
   CHECK(again.checkpoints.back().hash == recorded.checkpoints.back().hash);
 }
 
+TEST_CASE("a paused session can be closed at any moment") {
+  Scene scene = small_scene();
+  scene.mesh.box->cells = {1, 1, 1};
+  for (int k = 0; k < 2000; ++k) {
+    SessionOptions options;
+    options.start_paused = true;
+    std::atomic<int> frames{0};
+    options.on_frame = [&] { ++frames; };
+    const Session session(scene, options);
+    while (frames < 2) std::this_thread::yield();  // the engine thread is about to sleep
+    for (std::atomic<int> moments = k % 300; moments > 0;) --moments;
+  }
+}
+
 TEST_CASE("a halted session reports why and can be reset") {
   Scene scene = small_scene();
   scene.solver.continuation = false;
