@@ -26,8 +26,7 @@ void FrameDrawing::show(const Scene& scene, const World& world, bool panel, bool
   strokes_.clear();
   if (panel || comparisons || view_.field != Field::none) interface_.emplace(Interface::suitable_scale(size_));
   if (panel) panel_.emplace(scene, *surface_mesh_);
-  if (view_.range)
-    colours_.fix({static_cast<float>((*view_.range)[0]), static_cast<float>((*view_.range)[1])});
+  if (view_.range) colours_.fix({static_cast<float>((*view_.range)[0]), static_cast<float>((*view_.range)[1])});
   for (const Event& event : scene.events)
     if (continues_stroke(event.command)) strokes_.push_back(event);
 }
@@ -41,7 +40,7 @@ render::Image FrameDrawing::draw(World& world, double ahead, double seconds, Com
   surface_mesh_ = make_surface_mesh(world, std::move(surface_mesh_), view_.hidden);
   fill_frame(world, surface_mesh_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
   if (view_.section || skin_.exists()) fill_solid(world, ahead, solid_, frame_);
-  skin_.attach(frame_);
+  skin_.attach(world, frame_);
   if (comparison_runs) comparison_runs->fill(world, frame_, ahead);
   frame_.pace.rate = 1 / world.setup().solver.tick();
   if (panel_)

@@ -126,7 +126,8 @@ void BodyMesh::upload_fixed(const SurfaceMesh& surface_mesh, const TissueLook& l
 }
 
 void BodyMesh::update(const Frame& frame, const Range& range) {
-  surface_.update(wound_ ? std::span<const Vec3f>(wound_->place(frame.positions)) : frame.positions);
+  if (wound_) placed_ = wound_->place(frame.positions);
+  surface_.update(wound_ ? placed_ : frame.positions);
   moving_.resize(surface_.positions().size());
   const bool has_values = frame.values.size() == nodes_;
   if (has_values) surface_.spread(std::span<const float>(frame.values), values_);

@@ -25,6 +25,9 @@ class BodyMesh {
   /// Finds the outline as seen from `eye` (m), for draw_outline().
   void update_outline(const Vec3f& eye, const Mat4f& view_projection, Size size);
 
+  /// Where the surface's nodes are drawn since update(), with lips parted; #S, or empty without a wound.
+  std::span<const Vec3f> placed() const { return placed_; }
+
   void draw_skin() const;
   void draw_skin_outline() const;  ///< strips that fade outwards, see outline.hpp
   bool has_wound() const { return wound_.has_value(); }
@@ -78,6 +81,7 @@ class BodyMesh {
   BoundingSphere rest_;
   bool is_burnt_;
   float bead_radius_ = 0;
+  std::span<const Vec3f> placed_;
   std::vector<float> values_, beyond_;
   std::vector<char> in_wound_;  // #P; empty without a wound
   Outline outline_;

@@ -4,10 +4,10 @@
 
 #include <app/render/palette.hpp>
 #include <app/render/png.hpp>
-#include <app/render/weld.hpp>
 #include <cstddef>
 #include <heml/base/error.hpp>
 #include <heml/mesh/improve/surface_tree.hpp>
+#include <heml/mesh/weld.hpp>
 #include <numeric>
 
 namespace heml::render {
@@ -28,20 +28,23 @@ std::vector<Vec3f> rest_of(const Skin& skin) {
 }  // namespace
 
 FineSkin::FineSkin(std::shared_ptr<const Skin> skin, const SurfaceMesh& body, const TissueLook& look,
-                   const BoundingSphere& rest)
-    : skin_(std::move(skin)), team_(0), same_(weld(rest_of(*skin_))) {
+                   const BoundingSphere& rest, FineSkin* last)
+    : skin_(std::move(skin)), team_(0), same_(skin_->same.empty() ? weld(rest_of(*skin_)) : skin_->same) {
   const TexturedSurface& surface = skin_->surface;
   painted_ = !surface.texture.empty() || !surface.colours.empty();
   for (const Triangle& t : surface.mesh.triangles)
     for (const int n : t) indices_.push_back(static_cast<std::uint32_t>(n));
   find_fans();
-  find_anchors(body);
+  if (skin_->anchors.empty())
+    find_anchors(body);
+  else
+    take_anchors(body);
   std::vector<std::uint32_t> welded;  // a seam is no sharp edge
   for (const std::uint32_t v : indices_) welded.push_back(same_[v]);
   outline_.emplace(welded, same_);
   describe_vertices();
   upload_fixed(look, rest);
-  if (painted_) upload_texture();
+  if (painted_) upload_texture(last);
 }
 
 /// Triangles by the vertices round which they lie, seams closed.
@@ -78,7 +81,23 @@ void FineSkin::find_anchors(const SurfaceMesh& body) {
   });
 }
 
-float FineSkin::value_at(std::size_t vertex, std::span<const float> of_nodes) const {
+/// Those of a cut skin. Vertices that no triangle has may name nodes that the surface lacks.
+void FineSkin::take_anchors(const SurfaceMesh& body) {
+  anchors_.resize(skin_->anchors.size());
+  regions_.resize(skin_->anchors.size());
+  for (std::size_t v = 0; v < anchors_.size(); ++v) {
+    const SkinAnchor& anchor = skin_->anchors[v];
+    anchors_[v].weights = anchor.weights;
+    regions_[v] = anchor.region;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto found = std::lower_bound(body.nodes.begin(), body.nodes.end(), anchor.nodes[k]);
+      anchors_[v].nodes[k] = found == body.nodes.end() ? 0 : static_cast<int>(found - body.nodes.begin());
+    }
+  }
+}
+
+template <class Value>
+Value FineSkin::value_at(std::size_t vertex, std::span<const Value> of_nodes) const {
   const auto& [n, w] = anchors_[vertex];
   return w[0] * of_nodes[static_cast<std::size_t>(n[0])] + w[1] * of_nodes[static_cast<std::size_t>(n[1])] +
          w[2] * of_nodes[static_cast<std::size_t>(n[2])];
@@ -123,7 +142,7 @@ void FineSkin::upload_fixed(const TissueLook& look, const BoundingSphere& rest) 
     fixed.rest = (surface.mesh.nodes[v].cast<float>() - rest.centre) / rest.radius;
     fixed.on_sphere = on_sphere;
     fixed.surface = {as_byte(tint.x()), as_byte(tint.y()), as_byte(tint.z()),
-                     as_byte(value_at(v, look.ambient_occlusion))};
+                     as_byte(value_at(v, std::span<const float>(look.ambient_occlusion)))};
     fixed.place = surface.places.empty() ? Vec2f(Vec2f::Zero()) : Vec2f(surface.places[v][0], surface.places[v][1]);
     // A texture is the whole colour: exporters leave a white or grey diffuse factor beside it.
     const Vec3f colour =
@@ -141,7 +160,11 @@ void FineSkin::set_burnt(std::span<const float> burnt) {
   upload(GL_ARRAY_BUFFER, fixed_buffer_, std::span<const Fixed>(fixed_), GL_STATIC_DRAW);
 }
 
-void FineSkin::upload_texture() {
+void FineSkin::upload_texture(FineSkin* last) {
+  if (last && last->painted_ && last->skin_->surface.texture == skin_->surface.texture) {
+    texture_ = std::move(last->texture_);
+    return;
+  }
   Image image(Size{1, 1});
   std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{255});
   const std::filesystem::path& file = skin_->surface.texture;
@@ -163,11 +186,16 @@ void FineSkin::upload_texture() {
   glGenerateMipmap(GL_TEXTURE_2D);
 }
 
-void FineSkin::move(std::span<const Vec3f> solid_positions) {
+void FineSkin::move(const Frame& frame, std::span<const Vec3f> placed) {
   const Embedding& embedding = skin_->embedding;
+  std::vector<Vec3f> shifts(placed.size());
+  for (std::size_t n = 0; n < placed.size(); ++n) shifts[n] = placed[n] - frame.positions[n];
   positions_.resize(embedding.size());
   team_.parallel_for(positions_.size(), vertices_per_thread, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) positions_[v] = embedding.at<Vec3f>(v, solid_positions);
+    for (std::size_t v = begin; v < end; ++v) {
+      positions_[v] = embedding.at<Vec3f>(v, frame.solid_positions);
+      if (!shifts.empty()) positions_[v] += value_at(v, std::span<const Vec3f>(shifts));
+    }
   });
 }
 
@@ -192,15 +220,16 @@ void FineSkin::find_normals() {
   });
 }
 
-void FineSkin::update(const Frame& frame, const Range& range) {
-  move(frame.solid_positions);
+void FineSkin::update(const Frame& frame, const Range& range, std::span<const Vec3f> placed) {
+  move(frame, placed);
   find_normals();
   const float scale = 1 / std::max(range.high - range.low, 1e-30f);
   const bool has_values = !frame.values.empty();
   moving_.resize(positions_.size());
   team_.parallel_for(moving_.size(), vertices_per_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
-      moving_[v] = {positions_[v], normals_[v], has_values ? (value_at(v, frame.values) - range.low) * scale : 0};
+      moving_[v] = {positions_[v], normals_[v],
+                    has_values ? (value_at(v, std::span<const float>(frame.values)) - range.low) * scale : 0};
   });
   upload(GL_ARRAY_BUFFER, moving_buffer_, std::span<const Moving>(moving_), GL_STREAM_DRAW);
 }

@@ -16,9 +16,10 @@ namespace heml::render {
 
 class FineSkin {
  public:
-  /// body: uncut, whose look and bounding ball at rest the rest are. Reads the texture. Throws InputError.
+  /// body: the surface that the skin is of; look: its look; rest: the bounding ball of the uncut one. last: a skin
+  /// whose texture is taken over if it has the same; else the texture is read. Throws InputError.
   FineSkin(std::shared_ptr<const Skin> skin, const SurfaceMesh& body, const TissueLook& look,
-           const BoundingSphere& rest);
+           const BoundingSphere& rest, FineSkin* last = nullptr);
 
   const std::shared_ptr<const Skin>& source() const { return skin_; }
   bool is_painted() const { return painted_; }  ///< with colours of its own
@@ -28,8 +29,9 @@ class FineSkin {
   void set_burnt(std::span<const float> burnt);
   bool is_burnt() const { return is_burnt_; }
 
-  /// Moves the surface with a frame that has a solid; values are scaled to a range.
-  void update(const Frame& frame, const Range& range);
+  /// Moves the surface with a frame that has a solid; values are scaled to a range. placed: where the nodes of a cut
+  /// body's surface are drawn (Wound::place()); empty: where they are.
+  void update(const Frame& frame, const Range& range, std::span<const Vec3f> placed = {});
   /// As BodyMesh::update_hatching().
   void update_hatching(std::span<const float> beyond);
   /// As BodyMesh::update_outline().
@@ -65,13 +67,15 @@ class FineSkin {
   };
 
   void find_anchors(const SurfaceMesh& body);
+  void take_anchors(const SurfaceMesh& body);
   void find_fans();
   void upload_fixed(const TissueLook& look, const BoundingSphere& rest);
-  void upload_texture();
+  void upload_texture(FineSkin* last);
   void describe_vertices();
-  void move(std::span<const Vec3f> solid_positions);
+  void move(const Frame& frame, std::span<const Vec3f> placed);
   void find_normals();
-  float value_at(std::size_t vertex, std::span<const float> of_nodes) const;
+  template <class Value>
+  Value value_at(std::size_t vertex, std::span<const Value> of_nodes) const;
 
   std::shared_ptr<const Skin> skin_;
   bool painted_ = false, is_burnt_ = false;

@@ -1,7 +1,7 @@
 #include "app/render/lip_shape.hpp"
 
-#include <app/render/weld.hpp>
 #include <cmath>
+#include <heml/mesh/weld.hpp>
 #include <numeric>
 
 namespace heml::render {

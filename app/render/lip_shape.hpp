@@ -7,7 +7,7 @@
 //        ╲    ╱   ╲           │              │ │
 //         ╲  ╱     ╲          │              │ │      the skin beside the rim moves with it
 //          ╲╱       ╲         │              │ │
-#include <app/render/original_skin.hpp>
+#include <heml/session/original_skin.hpp>
 
 namespace heml::render {
 

@@ -20,7 +20,7 @@ class Outline {
   };
 
   /// triangles: 3 vertices each. same: #V, for each vertex the lowest index of those that count as one with it, because
-  /// they differ in their normals alone (weld.hpp, SmoothSurface::joined_vertices).
+  /// they differ in their normals alone (mesh/weld.hpp, SmoothSurface::joined_vertices).
   Outline(std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> same);
 
   /// Edges between a front and a back face, edges of one triangle only, and sharp edges between two front faces (which
@@ -34,7 +34,8 @@ class Outline {
   static void for_each_corner(const std::vector<Piece>& pieces, Corner corner) {
     for (const Piece& piece : pieces)
       for (const auto& [end, outside] : {std::pair(0, 0), {1, 0}, {0, 1}, {0, 1}, {1, 0}, {1, 1}})
-        corner(end == 0 ? piece.from : piece.to, outside == 0 ? Vec2f(Vec2f::Zero()) : piece.outward, 1.0f - outside);
+        corner(end == 0 ? piece.from : piece.to, outside == 0 ? Vec2f(Vec2f::Zero()) : piece.outward,
+               outside == 0 ? 1.0f : 0.0f);
   }
 
  private:

@@ -1,5 +1,6 @@
 #include "app/render/renderer.hpp"
 
+#include <algorithm>
 #include <app/render/background.hpp>
 #include <app/render/body_mesh.hpp>
 #include <app/render/fine_skin.hpp>
@@ -7,7 +8,6 @@
 #include <app/render/section_cap.hpp>
 #include <app/render/shadows.hpp>
 #include <app/render/tool_drawing.hpp>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -89,13 +89,13 @@ class Renderer::Impl {
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  // the mesh of body_
   std::shared_ptr<const SurfaceMesh> whole_;         // the mesh of the uncut body
   TissueLooks looks_;
-  TissueLook whole_look_;
+  TissueLook whole_look_, look_;  // of the uncut body, and of body_
   std::optional<BodyMesh> body_;
-  std::optional<FineSkin> skin_;  // in place of the body's surface; kept while a cut body has none
+  std::unique_ptr<FineSkin> skin_;  // in place of the body's surface; kept while that is shown
   bool shows_skin_ = false;
   std::shared_ptr<const SurfaceMesh> burnt_;  // the mesh whose burns skin_ has
-  std::optional<SectionCap> cap_;   // made on first use
-  Vec4f section_ = Vec4f::UnitW();  // the product with a point is negative beyond the section plane
+  std::optional<SectionCap> cap_;             // made on first use
+  Vec4f section_ = Vec4f::UnitW();            // the product with a point is negative beyond the section plane
   ShadowMap shadow_map_;
   Footprint footprint_;
   ToolDrawing tool_;
@@ -122,12 +122,13 @@ void Renderer::Impl::update_surface_mesh(const Frame& frame) {
   if (whole != whole_) whole_look_ = looks_.of(whole);
   whole_ = whole;
   if (!surface_mesh_->whole) {
-    body_.emplace(*surface_mesh_, whole_look_);
+    look_ = whole_look_;
+    body_.emplace(*surface_mesh_, look_);
     return;
   }
   Wound wound(*surface_mesh_, bounding_sphere(whole->rest).radius);
-  const TissueLook look = tissue_look(whole_look_, wound.skin());
-  body_.emplace(*surface_mesh_, look, std::move(wound));
+  look_ = tissue_look(whole_look_, wound.skin());
+  body_.emplace(*surface_mesh_, look_, std::move(wound));
 }
 
 void Renderer::Impl::update_skin(const Frame& frame) {
@@ -136,8 +137,8 @@ void Renderer::Impl::update_skin(const Frame& frame) {
   if (frame.solid_positions.size() != frame.solid->rest.size())
     throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than its solid");
   if (!skin_ || skin_->source() != frame.skin) {
-    skin_.reset();
-    skin_.emplace(frame.skin, *whole_, whole_look_, body_->rest());
+    const std::unique_ptr<FineSkin> last = std::move(skin_);
+    skin_ = std::make_unique<FineSkin>(frame.skin, *surface_mesh_, look_, body_->rest(), last.get());
     burnt_ = nullptr;
   }
   if (std::exchange(burnt_, surface_mesh_) != surface_mesh_) skin_->set_burnt(surface_mesh_->burnt);
@@ -167,10 +168,11 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
     body_->update(frame, range);
     update_section(frame, options, range);
     if (shows_skin_) {
-      skin_->update(frame, range);
+      skin_->update(frame, range, body_->placed());
       skin_->update_hatching(options.hatched);
       skin_->update_outline(camera.eye(), shot.view_projection, drawn);
-    } else {
+    }
+    if (!shows_skin_ || body_->has_wound()) {
       body_->update_hatching(options.hatched);
       body_->update_outline(camera.eye(), shot.view_projection, drawn);
     }
@@ -185,8 +187,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
     glScissor(options.left, options.bottom, drawn.width, drawn.height);  // also clips wide points and lines
     glEnable(GL_SCISSOR_TEST);
   }
-  draw_picture(shot, frame, options,
-               scaled ? Background::Place{} : Background::Place{options.left, options.bottom});
+  draw_picture(shot, frame, options, scaled ? Background::Place{} : Background::Place{options.left, options.bottom});
   glDisable(GL_SCISSOR_TEST);
   if (scaled) scaled->stretch_to_screen(options.left, options.bottom, size);
 }
@@ -236,25 +237,25 @@ void Renderer::Impl::update_section(const Frame& frame, const DrawOptions& optio
 void Renderer::Impl::draw_cap(const ViewContext& shot, bool shows_field) {
   // The cap lies in the plane itself, and OSMesa clips by the distance that a shader writes although clipping is off.
   const Vec4f plane = std::exchange(section_, Vec4f::UnitW());
-  prepare_body(shot, tissue_program(as_wound | as_cap | (shows_field ? with_field : 0u) |
-                                    (cap_->is_burnt() ? as_burnt : 0u)));
+  prepare_body(
+      shot, tissue_program(as_wound | as_cap | (shows_field ? with_field : 0u) | (cap_->is_burnt() ? as_burnt : 0u)));
   cap_->draw();
   section_ = plane;
 }
 
 void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field) {
-  const unsigned features = (shows_field ? with_field : 0u) | (options.hatched.empty() ? 0u : with_hatching) |
-                            burns();
+  const unsigned features = (shows_field ? with_field : 0u) | (options.hatched.empty() ? 0u : with_hatching) | burns();
   const auto prepare = [&](const Program& program) {
     prepare_body(shot, program);
     program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
   };
   if (shows_skin_) {
     prepare(tissue_program(features | (skin_->is_painted() ? as_painted : 0u)));
-    return skin_->draw();
+    skin_->draw();
+  } else {
+    prepare(tissue_program(features));
+    body_->draw_skin();
   }
-  prepare(tissue_program(features));
-  body_->draw_skin();
   if (!body_->has_wound()) return;
   prepare(tissue_program(features | as_wound));
   body_->draw_wound();
@@ -264,10 +265,11 @@ void Renderer::Impl::draw_body_outline(const ViewContext& shot, bool shows_field
   const unsigned features = as_outline | (shows_field ? with_field : 0u) | burns();
   if (shows_skin_) {
     prepare_body(shot, tissue_program(features | (skin_->is_painted() ? as_painted : 0u)));
-    return skin_->draw_outline();
+    skin_->draw_outline();
+  } else {
+    prepare_body(shot, tissue_program(features));
+    body_->draw_skin_outline();
   }
-  prepare_body(shot, tissue_program(features));
-  body_->draw_skin_outline();
   if (!body_->has_wound()) return;
   prepare_body(shot, tissue_program(features | as_wound));
   body_->draw_wound_outline();
@@ -303,10 +305,12 @@ void Renderer::Impl::draw_shadows(const ViewContext& shot, const Frame& frame, c
 
 void Renderer::Impl::draw_casters(const Program& program) const {
   program.set("model", Mat4f(Mat4f::Identity()));
-  if (shows_skin_)
+  if (shows_skin_) {
     skin_->draw();
-  else
+    if (body_->has_wound()) body_->draw_wound();
+  } else {
     body_->draw_flat();
+  }
   tool_.cast(program);
 }
 

@@ -1,8 +1,8 @@
 #include "app/render/solid_mesh.hpp"
 
-#include <app/render/weld.hpp>
 #include <cmath>
 #include <cstddef>
+#include <heml/mesh/weld.hpp>
 #include <numbers>
 
 namespace heml::render {

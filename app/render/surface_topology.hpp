@@ -33,7 +33,7 @@ struct SurfaceTopology {
 };
 
 /// crease: rad; an edge is sharp if the normals of its faces differ by more than this at rest, or if it does not have
-/// exactly two faces, or if only one of them is exposed (original_skin.hpp). exposed: #F, or empty for none.
+/// exactly two faces, or if only one of them is exposed (session/original_skin.hpp). exposed: #F, or empty for none.
 SurfaceTopology surface_topology(const SurfaceMesh& surface_mesh, float crease, std::span<const char> exposed = {});
 
 }  // namespace heml::render

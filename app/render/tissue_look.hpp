@@ -1,8 +1,8 @@
 #pragma once
 // Appearance data that depend only on the rest shape and are slow to compute. After an edit of the mesh they are
 // interpolated from those of the original skin: the pattern does not move.
-#include <app/render/original_skin.hpp>
 #include <heml/session/frame.hpp>
+#include <heml/session/original_skin.hpp>
 #include <memory>
 #include <vector>
 

@@ -105,8 +105,6 @@ void Viewer::draw() {
   const Frame& live = open_.session->latest();
   if (unsaved_.is_due()) unsaved_.save(open_.session->until(live));
   live_ = &live;
-  if (std::exchange(had_skin_, live.skin != nullptr) && !live.skin && live.surface_mesh->whole)
-    panel_->notify("The fine skin is not cut: from now on the body is drawn by its own surface.");
   frame_ = &playback_.select_frame(live, seconds, *open_.session);
   follow_script();
   panel::Timeline timeline = playback_.timeline(open_.scene, live);

@@ -181,7 +181,6 @@ class Viewer final : public WindowEvents {
   std::optional<std::filesystem::path> left_work_;  ///< of another run of the program: it is asked about, or restored
   bool restores_ = false;                           ///< the session being prepared is that of left_work_
   std::function<void()> after_question_;            ///< unless it is cancelled
-  bool had_skin_ = false;       ///< the last frame
   bool drags_section_ = false;  ///< the left button went down on the handle of the section plane
   bool quits_ = false;
 };

@@ -16,7 +16,7 @@ constexpr double edge = 0.025;  // m, about the distance between neighbours
 /// slowly with every refusal.
 template <class Place>
 void scatter(std::vector<Vec3>& points, int count, std::mt19937& random, const Place& place) {
-  const auto number = [&] { return random() / 4294967296.0; };
+  const auto number = [&] { return static_cast<double>(random()) / 4294967296.0; };
   double apart = edge;
   while (count > 0) {
     const double u = number(), v = number(), w = number();

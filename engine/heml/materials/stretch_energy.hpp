@@ -113,7 +113,7 @@ template <class Real>
 [[gnu::always_inline]] inline void stretch_differences(const StretchState<Real>& at, const StretchSecond<Real>& second,
                                                        Real theta[3]) {
   constexpr int row[3] = {0, 0, 1}, col[3] = {1, 2, 2};
-  constexpr Lane<Real> close = std::numeric_limits<Lane<Real>>::digits == 24 ? 1e-2 : 1e-5;
+  constexpr auto close = static_cast<Lane<Real>>(std::numeric_limits<Lane<Real>>::digits == 24 ? 1e-2 : 1e-5);
   for (int k = 0; k < 3; ++k) {
     const int i = row[k], j = col[k];
     const Real apart = at.e.value[i] - at.e.value[j];

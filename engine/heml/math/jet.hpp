@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <heml/math/elementary.hpp>
 #include <heml/math/scalar.hpp>
+#include <type_traits>
 
 namespace heml {
 
@@ -20,6 +21,9 @@ struct Jet {
 
   Jet() = default;
   Jet(Real constant) : value(constant) {}  // NOLINT: implicit conversion from a number
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Jet(Number constant)
+      : value(static_cast<Real>(constant)) {}  // NOLINT: as above
   static constexpr std::size_t at(std::size_t i, std::size_t j) {
     return i <= j ? i * N - i * (i + 1) / 2 + j : at(j, i);
   }

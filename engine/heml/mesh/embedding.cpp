@@ -87,6 +87,7 @@ Embedding embed(std::span<const Vec3> points, const TetMesh& mesh) {
   const BoundaryFaces faces = extract_boundary(mesh);
   const SurfaceTree surface(TriangleMesh{mesh.nodes, faces.triangles, mesh.source});
   Embedding result;
+  result.tets.resize(points.size());
   result.nodes.resize(points.size());
   result.weights.resize(points.size());
   std::vector<double> distances(points.size(), 0);
@@ -99,6 +100,7 @@ Embedding embed(std::span<const Vec3> points, const TetMesh& mesh) {
         tet = faces.tets[static_cast<std::size_t>(nearest.triangle)];
         distances[p] = nearest.distance;
       }
+      result.tets[p] = tet;
       result.nodes[p] = mesh.tets[static_cast<std::size_t>(tet)];
       const Eigen::Vector4d weights = lattice.weights(tet, points[p]);
       for (int i = 0; i < 4; ++i) result.weights[p][static_cast<std::size_t>(i)] = static_cast<float>(weights[i]);

@@ -13,7 +13,8 @@
 namespace heml {
 
 struct Embedding {
-  std::vector<Tet> nodes;                     ///< #P: corners
+  std::vector<int> tets;                      ///< #P: which tetrahedron of the mesh
+  std::vector<Tet> nodes;                     ///< #P: its corners
   std::vector<std::array<float, 4>> weights;  ///< #P: of 1 in all
   double farthest = 0;                        ///< m: of a point from the body
 

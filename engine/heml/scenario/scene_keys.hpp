@@ -323,7 +323,7 @@ inline constexpr ObjectInfo scene_objects[] = {
     {"initial", "State at time 0. Without it the body starts at rest in its rest shape.", scene_keys::initial,
      R"({"initial": {}})"},
     {"view", "How a viewer begins.", scene_keys::view, R"({"view": {}})"},
-    {"skin", "Drawn while the body is whole; a body that is cut is drawn by its own surface.", scene_keys::skin,
+    {"skin", "Drawn while no region is hidden; cut, torn and removed with the body.", scene_keys::skin,
      R"({"skin": {"file": "a.obj"}})"},
     {"recorded", "Written by the program.", scene_keys::recorded,
      R"({"recorded": {"nodes": 8, "tets": 5, "mesh": "0123456789abcdef"}})"},

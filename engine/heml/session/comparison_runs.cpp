@@ -95,7 +95,7 @@ void ComparisonRuns::fill(const World& world, Frame& frame, double ahead) {
       fill_solid(*run.world, ahead, run.solid, comparisons);
     else
       clear_solid(comparisons);
-    comparisons.skin = frame.skin && is_uncut(*run.surface_mesh) ? frame.skin : nullptr;
+    comparisons.skin = is_uncut(*frame.surface_mesh) && is_uncut(*run.surface_mesh) ? frame.skin : nullptr;
     comparisons.variant = run.variant.name;
     comparisons.distance = distance_between(frame, comparisons);
   }

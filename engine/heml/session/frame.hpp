@@ -99,7 +99,7 @@ struct Frame {
   std::shared_ptr<const Solid> solid;  ///< null unless asked for
   std::vector<Vec3f> solid_positions;  ///< #N×3, m, in the order of Solid::rest
   std::vector<float> solid_values;     ///< #N in the field's unit; empty for Field::none
-  std::shared_ptr<const Skin> skin;    ///< drawn in place of the surface, with `solid`; null: there is none, or no more
+  std::shared_ptr<const Skin> skin;    ///< drawn in place of the surface, with `solid`; null: there is none
   std::optional<double> mesh_error;    ///< relative, in the energy norm, 0 to 1; empty unless asked for and known
   std::optional<TimeError> time_error;  ///< of the last interval estimated; empty unless asked for and known
   std::shared_ptr<const Conditions> conditions;

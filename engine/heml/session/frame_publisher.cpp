@@ -63,7 +63,7 @@ void FramePublisher::publish(World& world, ComparisonRuns* comparison_runs,
     fill_solid(world, 0, solid_, frame);
   else
     clear_solid(frame);
-  skin_.attach(frame);
+  skin_.attach(world, frame);
   if (comparison_runs) comparison_runs->fill(world, frame);
   find_errors(world, frame);
   complete(frame);

@@ -1,7 +1,6 @@
 #include <algorithm>
-#include <heml/base/log.hpp>
 #include <heml/mesh/surface.hpp>
-#include <heml/scenario/skin.hpp>
+#include <heml/session/skin_cutter.hpp>
 #include <heml/session/surface_mesh.hpp>
 #include <numeric>
 #include <utility>
@@ -63,8 +62,8 @@ bool are_current(const Regions& regions, const World& world) {
                     });
 }
 
-/// The mean level of heat of the cells (triangles or tetrahedra) round each node; empty where nothing is burnt. element:
-/// of each cell, its mesh-file number.
+/// The mean level of heat of the cells (triangles or tetrahedra) round each node; empty where nothing is burnt.
+/// element: of each cell, its mesh-file number.
 template <class Cell>
 std::vector<float> burnt_nodes(const TetMesh& mesh, std::size_t nodes, const std::vector<Cell>& cells,
                                const std::vector<int>& element) {
@@ -206,11 +205,20 @@ bool is_uncut(const SurfaceMesh& surface_mesh) {
   return surface_mesh.nodes == whole.nodes && surface_mesh.triangles == whole.triangles;
 }
 
-void SkinAttachment::attach(Frame& frame) {
-  const bool whole = skin_ && frame.surface_mesh && is_uncut(*frame.surface_mesh);
-  frame.skin = whole && frame.surface_mesh->hidden.empty() ? skin_ : nullptr;
-  if (skin_ && !whole && !std::exchange(told_, true))
-    warn("{}: the skin is not cut: from now on the body is drawn by its own surface", skin_->surface.mesh.source);
+void SkinAttachment::attach(const World& world, Frame& frame) {
+  frame.skin = nullptr;
+  if (!skin_ || !frame.surface_mesh || !frame.surface_mesh->hidden.empty()) return;
+  const SurfaceMesh& surface = *frame.surface_mesh;
+  if (is_uncut(surface)) {
+    frame.skin = skin_;
+    return;
+  }
+  if (!cutter_) cutter_ = std::make_shared<const SkinCutter>(skin_, surface.whole);
+  if (!cut_ || cut_version_ != surface.version) {
+    cut_ = cutter_->cut(surface, *world.topology(), world.setup().mesh);
+    cut_version_ = surface.version;
+  }
+  frame.skin = cut_;
 }
 
 void clear_solid(Frame& frame) {

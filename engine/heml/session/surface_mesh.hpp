@@ -27,18 +27,21 @@ void clear_solid(Frame& frame);
 /// Whether a surface is that of the body before all edits: none was made, or all are undone.
 bool is_uncut(const SurfaceMesh& surface_mesh);
 
-/// A scene's skin, shown while the body is as it was made and no region is hidden. Copies share the skin.
+class SkinCutter;
+
+/// A scene's skin, cut as the body is, and shown while no region is hidden. Copies share the skin.
 class SkinAttachment {
  public:
   SkinAttachment() = default;  ///< no skin
   explicit SkinAttachment(std::shared_ptr<const Skin> skin) : skin_(std::move(skin)) {}
   bool exists() const { return skin_ != nullptr; }
-  /// Gives the skin to a frame with a solid, or takes it away where the mesh has been edited, of which it warns once.
-  void attach(Frame& frame);
+  /// Gives the skin to a frame of the world with a solid; the same one while the topology is the same.
+  void attach(const World& world, Frame& frame);
 
  private:
-  std::shared_ptr<const Skin> skin_;
-  bool told_ = false;
+  std::shared_ptr<const Skin> skin_, cut_;
+  std::shared_ptr<const SkinCutter> cutter_;  ///< from the first cut on
+  long cut_version_ = 0;                      ///< Topology::version of cut_
 };
 
 }  // namespace heml

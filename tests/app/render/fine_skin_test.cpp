@@ -188,8 +188,8 @@ TEST_CASE("a texture has its colours at its places, the first row on top") {
     if (blue(p[0], p[1], p[2])) highest_blue = std::min(highest_blue, y);
   }
   CHECK(lowest_red <= highest_blue + 2);  // v points up
-  skin->surface.texture = folder / "gone.png";
   auto other = std::make_shared<Skin>(*skin);
+  other->surface.texture = folder / "gone.png";
   stage.frame.skin = other;
   CHECK_THROWS_AS(stage.draw(), InputError);
 }

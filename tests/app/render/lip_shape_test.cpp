@@ -3,8 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-
-#include "cut_body.hpp"
+#include <engine/session/cut_body.hpp>
 
 namespace heml::lip_shape_test {
 

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <app/render/camera.hpp>
-#include <app/render/weld.hpp>
+#include <heml/mesh/weld.hpp>
 
 #include "shapes.hpp"
 

@@ -8,11 +8,11 @@
 #include <app/render/pick.hpp>
 #include <app/render/wound.hpp>
 #include <cmath>
+#include <engine/session/cut_body.hpp>
 #include <functional>
 #include <numbers>
 #include <set>
 
-#include "cut_body.hpp"
 #include "shapes.hpp"
 
 namespace heml::renderer_test {
@@ -153,8 +153,8 @@ TEST_CASE("an instrument over the skin casts a fine shadow towards which the lam
   const Image plain = stage.draw();
   const Vec3f lamp = Vec3f(-0.50f, 0.78f, 0.38f).normalized();
   const Vec3f skin = 0.05f * lamp, tip = 0.08f * lamp - 0.02f * stage.camera.right();
-  stage.frame.tools.push_back(ProbeState{
-      {}, tip.cast<double>(), (tip + 0.04f * stage.camera.right()).cast<double>(), 0.003});
+  stage.frame.tools.push_back(
+      ProbeState{{}, tip.cast<double>(), (tip + 0.04f * stage.camera.right()).cast<double>(), 0.003});
   const Image shaded = stage.draw();
   const auto brightness = [&](const Image& image, const Vec3f& point) {
     const Vec2f pixel = stage.camera.pixel(point, size);
@@ -326,7 +326,7 @@ TEST_CASE("burnt tissue is black at the path of the electrode, pale and without 
   };
   const Image charred = draw([](const Vec3f&) { return 1.0f; }), pale = draw([](const Vec3f&) { return 0.3f; });
   CHECK(4 * sum(charred, 0) < sum(fresh, 0));
-  CHECK(sum(pale, 1) > 1.3 * sum(fresh, 1));                                          // greyer than red flesh
+  CHECK(sum(pale, 1) > 1.3 * sum(fresh, 1));  // greyer than red flesh
   CHECK(sum(pale, 0) / double(sum(pale, 1)) < 0.7 * sum(fresh, 0) / sum(fresh, 1));
   const auto brightest = [&](const Image& image) {
     int most = 0;

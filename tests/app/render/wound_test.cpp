@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <app/render/smooth_surface.hpp>
+#include <engine/session/cut_body.hpp>
 
-#include "cut_body.hpp"
 #include "shapes.hpp"
 
 namespace heml::wound_test {

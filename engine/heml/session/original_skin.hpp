@@ -5,7 +5,7 @@
 #include <heml/session/frame.hpp>
 #include <vector>
 
-namespace heml::render {
+namespace heml {
 
 class OriginalSkin {
  public:
@@ -25,6 +25,10 @@ class OriginalSkin {
   /// #F: whether cuts, tears or removals have exposed a face.
   const std::vector<char>& exposed() const { return exposed_; }
 
+  /// m: points within it lie on the original skin.
+  double tolerance() const { return tolerance_; }
+  const SurfaceTree& tree() const { return tree_; }
+
  private:
   bool is_on_skin(const Vec3f& rest) const { return tree_.is_within(rest.cast<double>(), tolerance_); }
   void place_nodes(const SurfaceMesh& surface_mesh);
@@ -36,4 +40,4 @@ class OriginalSkin {
   std::vector<char> exposed_;
 };
 
-}  // namespace heml::render
+}  // namespace heml

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace heml::render {
+namespace heml {
 
 /// For each vertex, the lowest index of a vertex with exactly the same position.
 inline std::vector<std::uint32_t> weld(std::span<const Vec3f> positions) {
@@ -21,4 +21,4 @@ inline std::vector<std::uint32_t> weld(std::span<const Vec3f> positions) {
   return result;
 }
 
-}  // namespace heml::render
+}  // namespace heml

@@ -1,10 +1,10 @@
 #pragma once
 // A box with a cut from its top, in the state in which the cut was made: its lips lie together.
-#include <app/render/original_skin.hpp>
 #include <heml/mesh/generate.hpp>
+#include <heml/session/original_skin.hpp>
 #include <heml/session/surface_mesh.hpp>
 
-namespace heml::render {
+namespace heml {
 
 struct CutBody {
   static constexpr double side = 0.08;
@@ -29,4 +29,4 @@ struct CutBody {
   }
 };
 
-}  // namespace heml::render
+}  // namespace heml

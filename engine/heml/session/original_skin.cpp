@@ -1,9 +1,8 @@
-#include "app/render/original_skin.hpp"
-
 #include <algorithm>
 #include <heml/math/closest.hpp>
+#include <heml/session/original_skin.hpp>
 
-namespace heml::render {
+namespace heml {
 namespace {
 
 constexpr double tolerance_in_edges = 1e-4;
@@ -76,4 +75,4 @@ void OriginalSkin::find_exposed(const SurfaceMesh& surface_mesh) {
   }
 }
 
-}  // namespace heml::render
+}  // namespace heml

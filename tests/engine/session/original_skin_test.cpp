@@ -1,12 +1,10 @@
-#include "app/render/original_skin.hpp"
-
 #include <doctest/doctest.h>
+
+#include <heml/session/original_skin.hpp>
 
 #include "cut_body.hpp"
 
 namespace heml::original_skin_test {
-
-using namespace heml::render;
 
 namespace {
 
