@@ -12,7 +12,7 @@ namespace heml::window {
 
 class FrameHistory {
  public:
-  /// room: bytes, at most; surface meshes are shared between frames and not counted.
+  /// room: bytes, at most; of what frames share, cut skins are counted, once each, and surface meshes are not.
   explicit FrameHistory(std::size_t room = 256'000'000) : room_(room) {}
 
   /// Appends a frame that is later than the last by the spacing; replaces the last one if it has the same tick; ignores
@@ -32,6 +32,8 @@ class FrameHistory {
 
  private:
   void thin();
+  /// Bytes that frame k adds to those before it.
+  std::size_t bytes_at(std::size_t k) const;
 
   std::size_t room_, bytes_ = 0;
   long spacing_ = 1;  ///< ticks

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <app/window/frame_history.hpp>
+#include <heml/scenario/skin.hpp>
 
 namespace heml::frame_history_test {
 
@@ -49,6 +50,31 @@ TEST_CASE("the memory limit is kept and the whole session stays covered") {
   const long gap = 20'000 / std::ssize(frames);
   CHECK(frames.back().tick > 20'000 - 3 * gap);
   for (std::size_t k = 1; k < frames.size(); ++k) CHECK(frames[k].tick - frames[k - 1].tick <= 3 * gap);
+}
+
+TEST_CASE("skins of cut bodies count once each, and are dropped with the frames that have them") {
+  constexpr std::size_t room = 1'000'000;
+  FrameHistory history(room);
+  std::vector<std::weak_ptr<const Skin>> skins;
+  for (long tick = 0; tick < 400; ++tick) {
+    Frame frame = at(tick);
+    if (tick % 4 == 0) {  // a cut every fourth tick
+      Skin skin;
+      skin.surface.mesh.nodes.resize(1000);
+      skin.anchors.resize(1000);
+      frame.skin = std::make_shared<const Skin>(std::move(skin));
+      skins.push_back(frame.skin);
+    } else {
+      frame.skin = history.frames().back().skin;
+    }
+    history.add(frame);
+    CHECK(history.bytes() <= room);
+  }
+  const auto left = std::count_if(skins.begin(), skins.end(), [](const auto& skin) { return !skin.expired(); });
+  CHECK(left >= 4);
+  CHECK(left * 1000 * static_cast<long>(sizeof(Vec3) + sizeof(SkinAnchor)) <= static_cast<long>(room));
+  history.cut_after(-1);
+  CHECK(history.bytes() == 0);
 }
 
 TEST_CASE("frames after a tick are dropped") {
