@@ -3,6 +3,7 @@
 #include <heml/session/skin_cutter.hpp>
 #include <map>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "skinned_body.hpp"
@@ -80,6 +81,30 @@ TEST_CASE("a severed skin comes apart with its body: no triangle spans the cut")
     std::set<bool> halves;
     for (const Vec3& x : moved.nodes) halves.insert(x.x() > 0.5);
     CHECK(halves.size() == 2);
+  }
+}
+
+TEST_CASE("cuts at random that cross each other leave no triangle across them") {
+  std::mt19937 random(11);
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int round = 0; round < 12; ++round) {
+    SkinnedBody body(round % 2 == 0 ? 0.001 : 0);
+    for (int cut = 0; cut < 3; ++cut) {
+      const Vec3 normal = Vec3(number(-1, 1), number(-1, 1), number(-1, 1)).normalized();
+      const Vec3 along = normal.unitOrthogonal(), across = normal.cross(along);
+      const Vec3 middle(number(0.03, 0.05), number(0.03, 0.05), number(0.03, 0.05));
+      const double reach = 0.1;
+      const Vec3 a = middle - reach * along - reach * across, b = middle + reach * along - reach * across;
+      body.apply(CutTissue{{{{a, a + 2 * reach * across}, {b, b + 2 * reach * across}}}, false});
+    }
+    const auto cut = body.cut();
+    check_arrays(*cut);
+    CHECK(longest_edge(moved_apart(body, *cut)) < 2 * longest_edge(body.skin->surface.mesh));
+    const double before = area(body.skin->surface.mesh), after = area(cut->surface.mesh);
+    CHECK(after > 0.995 * before);
+    CHECK(after < 1.1 * before);
   }
 }
 
