@@ -132,7 +132,7 @@ void Renderer::Impl::update_surface_mesh(const Frame& frame) {
 }
 
 void Renderer::Impl::update_skin(const Frame& frame) {
-  shows_skin_ = body_ && frame.skin && frame.solid;
+  shows_skin_ = body_ && body_->has_triangles() && frame.skin && frame.solid;
   if (!shows_skin_) return;
   if (frame.solid_positions.size() != frame.solid->rest.size())
     throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than its solid");

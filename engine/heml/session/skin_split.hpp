@@ -32,14 +32,15 @@ struct SplitSkin {
   std::vector<int> near;  ///< triangles about the curtains, ascending
 };
 
-/// surface: the fine one, a tree of its triangles. same: #V, the lowest vertex at the same place. around[first[v]] to
-/// around[first[v + 1]]: the triangles at such a vertex. reach: m, of the curtains.
+/// A fine surface of #V vertices, to be divided.
 struct DividedSurface {
   const SurfaceTree& surface;
-  const std::vector<std::uint32_t>& same;
-  const std::vector<std::size_t>& first;
-  const std::vector<int>& around;
+  const std::vector<std::uint32_t>& same;  ///< #V: the lowest vertex at the same place
+  const std::vector<std::size_t>& first;   ///< #V+1
+  const std::vector<int>& around;          ///< from first[v] to first[v + 1]: the triangles at a vertex that is its `same`
 };
+
+/// reach: m, of the curtains, outward and inward. Triangles that face away from the body's surface are not divided.
 SplitSkin split_along(const WoundRim& rim, const DividedSurface& skin, double reach);
 
 }  // namespace heml

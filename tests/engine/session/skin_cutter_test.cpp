@@ -158,6 +158,24 @@ TEST_CASE("where elements are removed the skin over them is gone, and only there
   CHECK(beside);
 }
 
+TEST_CASE("a body that has lost all of its surface has no skin left") {
+  SkinnedBody body(0.001);
+  const TetMesh& mesh = body.world->setup().mesh;
+  RemoveElements remove;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const int n : mesh.tets[t]) {
+      const Vec3& x = mesh.nodes[static_cast<std::size_t>(n)];
+      if (std::min(x.minCoeff(), (Vec3::Constant(SkinnedBody::side) - x).minCoeff()) > 1e-6) continue;
+      remove.which.tets.push_back(static_cast<int>(t));
+      break;
+    }
+  body.apply(remove);
+  REQUIRE(!body.world->topology()->elements.empty());
+  const auto cut = body.cut();
+  check_arrays(*cut);
+  CHECK(cut->surface.mesh.triangles.empty());
+}
+
 TEST_CASE("new vertices have the look of the place where they are") {
   SkinnedBody body(0.002);
   for (const Vec3& x : body.skin->surface.mesh.nodes) {
