@@ -13,6 +13,10 @@
 namespace heml {
 namespace {
 
+std::string seen(const Json& value) { return "is " + shown(value); }
+
+}  // namespace
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -27,10 +31,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return row.back();
 }
-
-std::string seen(const Json& value) { return "is " + shown(value); }
-
-}  // namespace
 
 std::string_view nearest_name(std::string_view wrong, std::span<const std::string_view> names) {
   wrong = wrong.substr(0, 100);

@@ -15,6 +15,9 @@
 
 namespace heml {
 
+/// Number of letters to insert, remove or replace between two names (Levenshtein 1966).
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
 /// The entry of `names` with the least edit distance to a misspelt one; the first of equals. `names` must not be empty.
 std::string_view nearest_name(std::string_view wrong, std::span<const std::string_view> names);
 

@@ -1,10 +1,13 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <heml/scenario/installed_scene.hpp>
 #include <heml/scenario/scene.hpp>
+
+#include "engine/mesh/files.hpp"
 
 namespace heml::installed_scene_test {
 
@@ -13,6 +16,14 @@ TEST_CASE("names of installed scenes stand for their files, in folders too") {
   CHECK(scene_path("cantilever") == (scenes / "cantilever.json").string());
   CHECK(scene_path("extreme/01_force") == (scenes / "extreme/01_force.json").string());
   CHECK(read_scene(scene_path("cantilever")).name == "cantilever");
+}
+
+TEST_CASE("a misspelt name of an installed scene is told with the one that may be meant") {
+  for (const auto& [given, meant] : {std::pair("cantilevr", "cantilever"),
+                                     {"extreme/1_force", "extreme/01_force"},
+                                     {"kidney-grasp", "kidney_grasp"},
+                                     {"livercut", "liver_cut"}})
+    CHECK(refusal([&] { scene_path(given); }).find(fmt::format("did you mean '{}'?", meant)) != std::string::npos);
 }
 
 TEST_CASE("what is no name of an installed scene, or a file here, stays as given") {
