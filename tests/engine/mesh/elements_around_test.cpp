@@ -5,7 +5,7 @@
 
 namespace heml::elements_around_test {
 
-TEST_CASE("elements beside another share three nodes with it; those removed are none") {
+TEST_CASE("elements beside another share three nodes with it, and those removed are none") {
   const TetMesh mesh = make_box({1, 1, 1}, {3, 3, 3});
   Topology topology = full_topology(mesh);
   std::erase_if(topology.elements, [](int t) { return t % 7 == 3; });
