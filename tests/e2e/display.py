@@ -49,9 +49,9 @@ class Picture:
     def colours(self):
         return len({self.pixel(x, y) for x, y in self.places(0, self.width)})
 
-    def change(self, other, left, right):
-        """Mean difference per channel, 0 to 255, between columns `left` and `right`."""
-        places = self.places(left, right)
+    def change(self, other, left, right, bottom=None):
+        """Mean difference per channel, 0 to 255, between columns `left` and `right`, above row `bottom` if given."""
+        places = [place for place in self.places(left, right) if bottom is None or place[1] < bottom]
         return sum(abs(a - b) for p in places for a, b in zip(self.pixel(*p), other.pixel(*p))) / (3 * len(places))
 
     def red(self, left, right):

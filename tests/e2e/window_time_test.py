@@ -113,14 +113,14 @@ class Time(WindowCase):
         present = self.steady()
         self.xdo(*["key", "Left"] * 12)
         past = self.steady()
+        bodies = 630  # the row above the hint and the timeline, which differ anyway
         for pane in panes:
-            self.assertGreater(past.change(present, *pane), 0.05, "the past looks as the present")
+            self.assertGreater(past.change(present, *pane, bodies), 0.05, "the past looks as the present")
         self.do("key", "b")
         self.wait_for_scene("light", "out-2.jsonl")
         resumed = self.steady()
-        for left, right in panes:
-            change = [resumed.change(other, left, right) for other in (past, present)]
-            self.assertLess(change[0], change[1] / 2, "it was resumed elsewhere than where one looked")
+        for pane in panes:
+            self.assertLess(resumed.change(past, *pane, bodies), 0.01, "it was resumed elsewhere than where one looked")
         self.quit()
         self.assertEqual(len(self.seen("grasp")), 1)
         for file in ("out.jsonl", "out-2.jsonl"):  # of the first body only: comparison runs are not recorded
