@@ -175,13 +175,15 @@ class Splitting {
   std::set<int> divided() const {
     std::set<int> result;
     for (const auto& [t, points] : inside_) result.insert(t);
-    for (const auto& [s, points] : on_sides_)
+    for (const auto& side_points : on_sides_) {
+      const Side& s = side_points.first;
       for (std::size_t k = skin_.first[static_cast<std::size_t>(s[0])];
            k < skin_.first[static_cast<std::size_t>(s[0]) + 1]; ++k) {
         const Triangle& corners = triangle(skin_.around[k]);
         if (std::any_of(corners.begin(), corners.end(), [&](int v) { return welded(v) == s[1]; }))
           result.insert(skin_.around[k]);
       }
+    }
     return result;
   }
 
