@@ -89,7 +89,7 @@ class Renderer::Impl {
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  // the mesh of body_
   std::shared_ptr<const SurfaceMesh> whole_;         // the mesh of the uncut body
   TissueLooks looks_;
-  TissueLook whole_look_, look_;  // of the uncut body, and of body_
+  TissueLook whole_look_, edited_look_;  // of the uncut body, and of body_ where it has edits
   std::optional<BodyMesh> body_;
   std::unique_ptr<FineSkin> skin_;  // in place of the body's surface; kept while that is shown
   bool shows_skin_ = false;
@@ -122,13 +122,12 @@ void Renderer::Impl::update_surface_mesh(const Frame& frame) {
   if (whole != whole_) whole_look_ = looks_.of(whole);
   whole_ = whole;
   if (!surface_mesh_->whole) {
-    look_ = whole_look_;
-    body_.emplace(*surface_mesh_, look_);
+    body_.emplace(*surface_mesh_, whole_look_);
     return;
   }
   Wound wound(*surface_mesh_, bounding_sphere(whole->rest).radius);
-  look_ = tissue_look(whole_look_, wound.skin());
-  body_.emplace(*surface_mesh_, look_, std::move(wound));
+  edited_look_ = tissue_look(whole_look_, wound.skin());
+  body_.emplace(*surface_mesh_, edited_look_, std::move(wound));
 }
 
 void Renderer::Impl::update_skin(const Frame& frame) {
@@ -138,7 +137,8 @@ void Renderer::Impl::update_skin(const Frame& frame) {
     throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than its solid");
   if (!skin_ || skin_->source() != frame.skin) {
     const std::unique_ptr<FineSkin> last = std::move(skin_);
-    skin_ = std::make_unique<FineSkin>(frame.skin, *surface_mesh_, look_, body_->rest(), last.get());
+    const TissueLook& look = surface_mesh_->whole ? edited_look_ : whole_look_;
+    skin_ = std::make_unique<FineSkin>(frame.skin, *surface_mesh_, look, body_->rest(), last.get());
     burnt_ = nullptr;
   }
   if (std::exchange(burnt_, surface_mesh_) != surface_mesh_) skin_->set_burnt(surface_mesh_->burnt);
