@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <heml/session/remaining_skin.hpp>
 #include <heml/session/skin_cutter.hpp>
 #include <map>
 #include <numeric>
@@ -55,6 +56,35 @@ double longest_edge(const TriangleMesh& surface) {
   return longest;
 }
 
+/// The part of the skin's area, without strips, that hangs on another piece of the body than the one below it.
+double astray(const SkinnedBody& body, const Skin& skin, double above) {
+  const std::vector<int> piece = pieces_of(*body.world);
+  const TetMesh& mesh = body.world->setup().mesh;
+  const auto surface = body.surface();
+  const OriginalSkin original(*surface);
+  const RemainingSkin left(*surface, original);
+  double wrong = 0, sum = 0;
+  for (const Triangle& t : skin.surface.mesh.triangles) {
+    std::array<Vec3, 3> x;
+    double lowest = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = skin.surface.mesh.nodes[static_cast<std::size_t>(t[k])];
+      lowest = std::min(lowest, std::max(-x[k].minCoeff(), (x[k] - Vec3::Constant(SkinnedBody::side)).maxCoeff()));
+    }
+    if (lowest < above / 2) continue;  // a strip
+    const double size = (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
+    const int tile = left.at(original.tree().nearest((x[0] + x[1] + x[2]) / 3).point);
+    REQUIRE(tile >= 0);
+    const Tet& below = mesh.tets[static_cast<std::size_t>(surface->elements[left.face(tile)])];
+    sum += size;
+    for (const int n : t) {
+      const int hangs_on = skin.embedding.nodes[static_cast<std::size_t>(n)][0];
+      if (piece[static_cast<std::size_t>(hangs_on)] != piece[static_cast<std::size_t>(below[0])]) wrong += size / 3;
+    }
+  }
+  return wrong / sum;
+}
+
 void check_arrays(const Skin& skin) {
   const std::size_t vertices = skin.surface.mesh.nodes.size();
   CHECK(skin.embedding.size() == vertices);
@@ -77,6 +107,7 @@ TEST_CASE("a severed skin comes apart with its body: no triangle spans the cut")
     const TriangleMesh moved = moved_apart(body, *cut);
     CHECK(moved.triangles.size() > body.skin->surface.mesh.triangles.size());
     CHECK(longest_edge(moved) < 2 * longest_edge(body.skin->surface.mesh));  // strips included
+    CHECK(astray(body, *cut, above) < 0.002 + above);                        // curtains lean at edges of the box
     // The body's two pieces, and the skin's.
     std::set<bool> halves;
     for (const Vec3& x : moved.nodes) halves.insert(x.x() > 0.5);
@@ -101,6 +132,7 @@ TEST_CASE("cuts at random that cross each other leave no triangle across them") 
     }
     const auto cut = body.cut();
     check_arrays(*cut);
+    CHECK(astray(body, *cut, round % 2 == 0 ? 0.001 : 0) < 0.01);
     CHECK(longest_edge(moved_apart(body, *cut)) < 2 * longest_edge(body.skin->surface.mesh));
     const double before = area(body.skin->surface.mesh), after = area(cut->surface.mesh);
     CHECK(after > 0.995 * before);
@@ -109,7 +141,6 @@ TEST_CASE("cuts at random that cross each other leave no triangle across them") 
 }
 
 TEST_CASE("a skin that is the body's own surface, cut through its very nodes, comes apart too") {
-  SkinnedBody body(0);
   for (const int cells : {6, 12}) {
     SkinnedBody fresh(0);
     fresh.take(SkinnedBody::shell(SkinnedBody::side, cells));
@@ -119,6 +150,7 @@ TEST_CASE("a skin that is the body's own surface, cut through its very nodes, co
     check_arrays(*cut);
     const TriangleMesh moved = moved_apart(fresh, *cut);
     CHECK(longest_edge(moved) < 1.01 * longest_edge(fresh.skin->surface.mesh));
+    CHECK(astray(fresh, *cut, 0) < 1e-4);
     CHECK(area(moved) == doctest::Approx(area(fresh.skin->surface.mesh)).epsilon(1e-4));
   }
 }
