@@ -87,14 +87,20 @@ class Drawing(WindowCase):
         bar = beam(name="bar", skin={"file": "tube.obj"}, gravity=[0, 0, 0], solver={"rate": 100},
                    events=[{"step": 200, "remove": gap}])
 
-        def parts():
+        def green():
             picture = self.display.picture()
-            return count_parts([place for place in picture.places(220, 640) if GREEN(*picture.pixel(*place))], 4)
+            return [place for place in picture.places(220, 640) if GREEN(*picture.pixel(*place))]
 
+        parts = lambda: count_parts(green(), 4)
         self.open_display(640, 360)
         self.begin_light("--record", "out.jsonl", scene=bar)
         self.wait_for("the skin", lambda: parts() == 1)
+        whole = len(green())
         self.wait_for("the parts of the skin", lambda: parts() == 2)
+        for _ in range(3):  # and so it stays
+            self.play(40)
+            self.assertEqual(parts(), 2)
+            self.assertLess(len(green()), 0.9 * whole)
         self.do("key", "ctrl+z")
         self.wait_for("the whole skin again", lambda: parts() == 1)
         self.quit()
