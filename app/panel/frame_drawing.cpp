@@ -41,7 +41,7 @@ render::Image FrameDrawing::draw(World& world, double ahead, double seconds, Com
   fill_frame(world, surface_mesh_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
   if (view_.section || skin_.exists()) fill_solid(world, ahead, solid_, frame_);
   skin_.attach(world, frame_);
-  if (comparison_runs) comparison_runs->fill(world, frame_, ahead);
+  if (comparison_runs) comparison_runs->fill(world, frame_, ahead, skin_);
   frame_.pace.rate = 1 / world.setup().solver.tick();
   if (panel_)
     draw_with_panel(static_cast<float>(seconds));

@@ -49,7 +49,7 @@ ComparisonRuns::ComparisonRuns(const WorldSetup& setup, const std::vector<std::s
     Variant variant = variant_of(setup, word);
     variant.setup.solver.threads = 1;  // runs tick in parallel; the number of threads changes no bit
     auto world = make_world(std::move(variant.setup));
-    comparison_runs_.push_back({std::move(variant), std::move(world), nullptr, nullptr});
+    comparison_runs_.push_back({std::move(variant), std::move(world), nullptr, nullptr, {}});
   }
 }
 
@@ -83,7 +83,7 @@ void ComparisonRuns::interrupt() {
   for (ComparisonRun& run : comparison_runs_) run.world->interrupt();
 }
 
-void ComparisonRuns::fill(const World& world, Frame& frame, double ahead) {
+void ComparisonRuns::fill(const World& world, Frame& frame, double ahead, const SkinAttachment& skin) {
   frame.variant = variant_name(world.setup());
   frame.comparisons.resize(comparison_runs_.size());
   for (std::size_t k = 0; k < comparison_runs_.size(); ++k) {
@@ -95,7 +95,8 @@ void ComparisonRuns::fill(const World& world, Frame& frame, double ahead) {
       fill_solid(*run.world, ahead, run.solid, comparisons);
     else
       clear_solid(comparisons);
-    comparisons.skin = is_uncut(*frame.surface_mesh) && is_uncut(*run.surface_mesh) ? frame.skin : nullptr;
+    if (!run.skin.exists()) run.skin = skin.for_another_world();
+    run.skin.attach(*run.world, comparisons);
     comparisons.variant = run.variant.name;
     comparisons.distance = distance_between(frame, comparisons);
   }

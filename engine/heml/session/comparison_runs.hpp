@@ -6,6 +6,7 @@
 //    tick:    [ world | run 1 | run 2 … ]             in parallel, on up to all cores
 #include <heml/base/thread_team.hpp>
 #include <heml/session/frame.hpp>
+#include <heml/session/surface_mesh.hpp>
 #include <heml/session/variant.hpp>
 
 namespace heml {
@@ -27,8 +28,8 @@ class ComparisonRuns {
   /// Makes a tick under way end early; may be called from any thread.
   void interrupt();
   /// Fills Frame::comparisons and Frame::variant of the world's frame, which fill_frame() has filled. ahead: s, as
-  /// there.
-  void fill(const World& world, Frame& frame, double ahead = 0);
+  /// there. skin: of the world's frames; those of the runs get one of their own, cut as they are.
+  void fill(const World& world, Frame& frame, double ahead = 0, const SkinAttachment& skin = {});
 
  private:
   struct ComparisonRun {
@@ -36,6 +37,7 @@ class ComparisonRuns {
     std::unique_ptr<World> world;
     std::shared_ptr<const SurfaceMesh> surface_mesh;
     std::shared_ptr<const Solid> solid;
+    SkinAttachment skin;  // of a world whose frames have one; cut as this run is
   };
   std::vector<ComparisonRun> comparison_runs_;
   ThreadTeam team_;

@@ -64,7 +64,7 @@ void FramePublisher::publish(World& world, ComparisonRuns* comparison_runs,
   else
     clear_solid(frame);
   skin_.attach(world, frame);
-  if (comparison_runs) comparison_runs->fill(world, frame);
+  if (comparison_runs) comparison_runs->fill(world, frame, 0, skin_);
   find_errors(world, frame);
   complete(frame);
   frames_.publish();

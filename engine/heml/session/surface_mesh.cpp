@@ -200,7 +200,8 @@ void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, 
   world.write_field(frame.field, nodes, frame.solid_values);
 }
 
-bool is_uncut(const SurfaceMesh& surface_mesh) {
+/// Whether a surface is that of the body before all edits: none was made, or all are undone.
+static bool is_uncut(const SurfaceMesh& surface_mesh) {
   const SurfaceMesh& whole = uncut_surface(surface_mesh);
   return surface_mesh.nodes == whole.nodes && surface_mesh.triangles == whole.triangles;
 }

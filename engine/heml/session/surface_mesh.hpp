@@ -24,17 +24,16 @@ void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, 
 /// Removes it from the frame.
 void clear_solid(Frame& frame);
 
-/// Whether a surface is that of the body before all edits: none was made, or all are undone.
-bool is_uncut(const SurfaceMesh& surface_mesh);
-
 class SkinCutter;
 
-/// A scene's skin, cut as the body is, and shown while no region is hidden. Copies share the skin.
+/// A scene's skin, cut as the body is, and shown while no region is hidden.
 class SkinAttachment {
  public:
   SkinAttachment() = default;  ///< no skin
   explicit SkinAttachment(std::shared_ptr<const Skin> skin) : skin_(std::move(skin)) {}
   bool exists() const { return skin_ != nullptr; }
+  /// The same skin for another world of the same mesh, whose cuts may be others.
+  SkinAttachment for_another_world() const { return SkinAttachment(skin_); }
   /// Gives the skin to a frame of the world with a solid; the same one while the topology is the same.
   void attach(const World& world, Frame& frame);
 

@@ -8,6 +8,7 @@
 #include <heml/session/surface_mesh.hpp>
 
 #include "engine/world/world_support.hpp"
+#include "skinned_body.hpp"
 
 namespace heml::comparison_runs_test {
 
@@ -39,6 +40,33 @@ TEST_CASE("comparison runs: one of the same law and method gives the bits of the
     CHECK(comparisons.distance->max == 0);
   }
   CHECK(frame.comparisons[2].variant == "double+p1");
+}
+
+TEST_CASE("comparison runs: each has the skin, cut as its own body is") {
+  SkinnedBody body(0.001);
+  ComparisonRuns comparison_runs(body.world->setup(), {"neo_hookean"});
+  SkinAttachment attachment(body.skin);
+  std::shared_ptr<const SurfaceMesh> surface;
+  const auto frame_now = [&] {
+    Frame frame;
+    surface = make_surface_mesh(*body.world, surface);
+    fill_frame(*body.world, surface, Field::none, 0, frame);
+    attachment.attach(*body.world, frame);
+    comparison_runs.fill(*body.world, frame, 0, attachment);
+    return frame;
+  };
+  CHECK(frame_now().comparisons[0].skin == body.skin);
+  body.sever(0.033, 0.051);
+  const Frame apart = frame_now();  // the run has not been cut
+  CHECK(apart.skin != body.skin);
+  CHECK(apart.comparisons[0].skin == body.skin);
+  const Vec3 from(0.02, -0.01, -0.01), to(0.02, 0.09, -0.01), up(0, 0, 0.1);
+  comparison_runs.apply(CutTissue{{{{from, from + up}, {to, to + up}}}, false});
+  const Frame both = frame_now();
+  REQUIRE(both.comparisons[0].skin);
+  CHECK(both.comparisons[0].skin != body.skin);
+  CHECK(both.comparisons[0].skin != both.skin);
+  CHECK(both.comparisons[0].skin->surface.mesh.triangles.size() > body.skin->surface.mesh.triangles.size());
 }
 
 TEST_CASE("comparison runs: another method differs by its time error, another law by its stress") {
