@@ -21,7 +21,7 @@ constexpr Switch switches[] = {{"hints off", &Preferences::hints, false},
                                {"constraints off", &Preferences::constraints, false},
                                {"full resolution off", &Preferences::full_resolution, false},
                                {"device moves view", &Preferences::device_moves_view, true}};
-constexpr std::string_view light = "theme light", size = "size ", window = "window ", tool = "tool ", open = "open ",
+constexpr std::string_view light = "theme light", ui_size = "size ", window = "window ", tool = "tool ", open = "open ",
                            closed = "closed ";
 constexpr int least_window = 200, largest_window = 16384;  // screen coordinates
 
@@ -56,7 +56,7 @@ std::string to_text(const Preferences& preferences) {
   for (const auto& [line, value, is_on] : switches)
     if (preferences.*value == is_on) text += fmt::format("{}\n", line);
   if (preferences.look.theme == Theme::light) text += fmt::format("{}\n", light);
-  if (preferences.look.size != 1) text += fmt::format("{}{}\n", size, preferences.look.size);
+  if (preferences.look.size != 1) text += fmt::format("{}{}\n", ui_size, preferences.look.size);
   if (preferences.window != first_window)
     text += fmt::format("{}{} {}\n", window, preferences.window.width, preferences.window.height);
   for (const auto& [name, value] : preferences.tools) text += fmt::format("{}{} {}\n", tool, name, value);
@@ -72,8 +72,8 @@ Preferences preferences_from(std::string_view text) {
     for (const auto& [said, value, is_on] : switches)
       if (line == said) preferences.*value = is_on;
     if (line == light) preferences.look.theme = Theme::light;
-    if (line.starts_with(size)) {
-      const double given = number_from(std::string_view(line).substr(size.size()));
+    if (line.starts_with(ui_size)) {
+      const double given = number_from(std::string_view(line).substr(ui_size.size()));
       if (std::find(std::begin(interface_sizes), std::end(interface_sizes), given) != std::end(interface_sizes))
         preferences.look.size = given;
     }

@@ -33,8 +33,8 @@ constexpr ToolSetting burn_depth{"burn depth", &ToolSettings::burn_depth, 0.08, 
 constexpr ToolSetting shrink{"shrink", &ToolSettings::shrink, usual_shrink, 0, max_shrink, false};
 constexpr ToolSetting probe_radius{"probe radius", &ToolSettings::probe_radius, 0.08, 0.01, 0.4};
 constexpr ToolSetting indentation{"indentation", &ToolSettings::indentation, 0.15, 0, 0.6};
-constexpr const ToolSetting* settings[] = {&grasp_radius, &depth,      &jaw_length, &jaw_opening,  &jaw_direction,
-                                           &burn_radius,  &burn_depth, &shrink,     &probe_radius, &indentation};
+constexpr const ToolSetting* tool_settings[] = {&grasp_radius, &depth,      &jaw_length, &jaw_opening,  &jaw_direction,
+                                                &burn_radius,  &burn_depth, &shrink,     &probe_radius, &indentation};
 
 std::string several(std::size_t count, const char* what) {
   return fmt::format("Remove {} {}{}", count, what, count == 1 ? "" : "s");
@@ -49,7 +49,7 @@ ToolSection::ToolSection(double body_radius, const Vec3& gravity) : body_radius_
 }
 
 void ToolSection::keep(const std::map<std::string, double>& kept) {
-  for (const ToolSetting* setting : settings) {
+  for (const ToolSetting* setting : tool_settings) {
     const auto found = kept.find(std::string(setting->name));
     const bool usable = found != kept.end() && found->second >= setting->least && found->second <= 10 * setting->most;
     tool_.*setting->value = (usable ? found->second : setting->first) * (setting->is_length ? body_radius_ : 1);
@@ -58,7 +58,7 @@ void ToolSection::keep(const std::map<std::string, double>& kept) {
 
 std::map<std::string, double> ToolSection::kept() const {
   std::map<std::string, double> kept;
-  for (const ToolSetting* setting : settings) {
+  for (const ToolSetting* setting : tool_settings) {
     const double value = tool_.*setting->value / (setting->is_length ? body_radius_ : 1);
     const double rounded = std::round(value * kept_digits) / kept_digits;
     if (rounded != setting->first) kept[std::string(setting->name)] = rounded;

@@ -13,7 +13,7 @@ constexpr float jaw_length = 1.5f;      // of the forceps, in body radii
 constexpr float half_opening = 0.016f;  // between the tips, in lengths
 constexpr float open_jaws = 0.05f;      // the same of forceps that hold nothing
 constexpr float tip_height = 0.006f;    // of the tips' middle over the skin, in lengths
-constexpr float lean = 0.8f;            // of the handle to the hand's side, against its rise along the normal
+constexpr float handle_lean = 0.8f;     // of the handle to the hand's side, against its rise along the normal
 constexpr float full_pull = 0.4f;       // body radii from which the handle follows the pull most
 constexpr float pull_lean = 0.8f;
 constexpr float least_rise = 0.4f;      // sine of the handle's angle with the skin
@@ -104,7 +104,7 @@ HeldPatch free_patch(const Vec3f& tip, const Camera& camera) { return {tip, came
 Vec3f handle_axis(const HeldPatch& patch, const Camera& camera, float radius) {
   const Vec3f& n = patch.normal;
   const Vec3f hand = camera.up() + 0.55f * camera.right();
-  Vec3f axis = (n + lean * (hand - hand.dot(n) * n)).normalized();
+  Vec3f axis = (n + handle_lean * (hand - hand.dot(n) * n)).normalized();
   const float distance = patch.pull.norm();
   if (distance > 0) axis += pull_lean * std::min(1.0f, distance / (full_pull * radius)) / distance * patch.pull;
   const float rise = axis.dot(n);

@@ -6,7 +6,7 @@
 namespace heml::window {
 namespace {
 
-constexpr float reach = 9;  // pixels from the drawn clamp
+constexpr float clamp_reach = 9;  // pixels from the drawn clamp
 
 float distance_to_segment(const render::Vec2f& point, const render::Vec2f& from, const render::Vec2f& to) {
   const render::Vec2f along = to - from;
@@ -20,7 +20,7 @@ float distance_to_segment(const render::Vec2f& point, const render::Vec2f& from,
 std::optional<GraspState> clamp_at(const render::Vec2f& pixel, const Frame& frame, const SurfaceMesh& surface_mesh,
                                    const panel::CameraController& controller) {
   std::optional<GraspState> nearest;
-  float least = reach, radius = 0;
+  float least = clamp_reach, radius = 0;
   for (const GraspState& grasp : tools_of<GraspState>(frame.tools)) {
     if (!render::is_clamp(grasp)) continue;
     if (radius == 0) radius = render::bounding_sphere(uncut_surface(surface_mesh).rest).radius;

@@ -10,10 +10,10 @@ namespace {
 constexpr float speed = 0.5f;        // heights of the view a second, at full deflection: a fitted body in two seconds
 constexpr float turn_speed = 0.5f;   // the same as travel of the mouse: a quarter turn
 constexpr float zoom_speed = 6;      // notches of the wheel a second
-constexpr float longest = 0.1f;      // s: a picture that took longer moves the hand no further
-constexpr float depth = 1;           // heights of the view before and behind the middle of the view
-constexpr float least_reach = 0.02f;  // heights of the view
-constexpr float first_gap = 0.1f;    // likewise: from the tissue in the middle to where the hand appears
+constexpr float longest_picture = 0.1f;  // s: a picture that took longer moves the hand no further
+constexpr float depth_of_view = 1;       // heights of the view before and behind the middle of the view
+constexpr float least_reach = 0.02f;     // heights of the view
+constexpr float first_gap = 0.1f;        // likewise: from the tissue in the middle to where the hand appears
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Status DeviceHand::act(float seconds, bool moves_view, const Scene& scene, std::
   notice_loss(scene.frame, out);
   const bool grasps = std::exchange(grasp_pressed_, false), leaves = std::exchange(clamp_pressed_, false);
   if (state_.is_idle() && !grasps && !leaves) return {};
-  const float time = std::min(seconds, longest);
+  const float time = std::min(seconds, longest_picture);
   has_moved_ = true;
   turn_view(time);
   if (moves_view) move_view(time);
@@ -71,7 +71,7 @@ bool DeviceHand::move(float seconds) {
   const float whole = height() * metres_per_pixel(target);  // m, what the view shows there
   const Vec3f step = seconds * speed * whole * state_.move;
   const float ahead = away.dot(*tip_ - target);
-  const float further = std::clamp(ahead + step.z(), -depth * whole, depth * whole) - ahead;
+  const float further = std::clamp(ahead + step.z(), -depth_of_view * whole, depth_of_view * whole) - ahead;
   Vec3f tip = *tip_ + step.x() * camera.right() + step.y() * camera.up() + further * away;
   const panel::Pane& pane = controller_.pane();
   const render::Vec2f at = controller_.pixel(tip);

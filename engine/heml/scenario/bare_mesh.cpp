@@ -8,7 +8,7 @@
 namespace heml {
 namespace {
 
-constexpr double moduli[] = {1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6, 1e7};
+constexpr double young_moduli[] = {1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6, 1e7};
 constexpr double trial_rate = 2;  // Hz
 constexpr double lean = 0.05;     // of gravity, sideways: a body that would buckle does
 constexpr int trial_ticks = 12, trial_iterations = 3, trial_linear = 60;  // one iteration is not enough for a column
@@ -34,7 +34,7 @@ bool is_at_rest(World& world) {
 
 }  // namespace
 
-std::span<const double> tissue_moduli() { return moduli; }
+std::span<const double> tissue_moduli() { return young_moduli; }
 
 TrialRun try_tissue(const WorldSetup& setup) {
   WorldSetup trial = setup;

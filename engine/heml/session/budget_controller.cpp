@@ -3,8 +3,8 @@
 
 namespace heml {
 namespace {
-constexpr double share = 0.9;      // of the budget that is used
-constexpr double smoothing = 0.1;  // weight of the last tick
+constexpr double used_share = 0.9;  // of the budget that is used
+constexpr double smoothing = 0.1;   // weight of the last tick
 constexpr int max_iterations = 60;
 constexpr int ticks_to_raise = 10;  // lowered at once, raised after this many ticks in a row with room for more
 }  // namespace
@@ -19,7 +19,7 @@ std::optional<int> BudgetController::after(double seconds, const SolverStats& wo
   // Estimated stages per tick, for any method.
   const double stages = std::max(1.0, static_cast<double>(done) / work.budget);
   const int best =
-      static_cast<int>(std::clamp(share * target_ / (stages * seconds_per_iteration_), 1.0, 1.0 * max_iterations));
+      static_cast<int>(std::clamp(used_share * target_ / (stages * seconds_per_iteration_), 1.0, 1.0 * max_iterations));
   const bool has_room = best > work.budget;
   if (has_room && ++patience_ < ticks_to_raise) return std::nullopt;
   patience_ = 0;

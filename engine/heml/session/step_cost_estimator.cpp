@@ -4,7 +4,7 @@
 namespace heml {
 namespace {
 constexpr int ticks_to_be_sure = 200;
-constexpr double far = 1.5;  // ratio of old and new cost that is reported
+constexpr double reported_ratio = 1.5;  // ratio of old and new cost that is reported
 }  // namespace
 
 std::optional<double> StepCostEstimator::after(double seconds, int steps) {
@@ -13,7 +13,7 @@ std::optional<double> StepCostEstimator::after(double seconds, int steps) {
   least_ = ticks_++ == 0 ? now : std::min(least_, now);
   if (ticks_ < ticks_to_be_sure) return std::nullopt;
   ticks_ = 0;
-  if (least_ < far * said_ && said_ < far * least_) return std::nullopt;
+  if (least_ < reported_ratio * said_ && said_ < reported_ratio * least_) return std::nullopt;
   return said_ = least_;
 }
 

@@ -5,10 +5,10 @@
 
 namespace heml {
 namespace {
-constexpr double bound_share = 1.25;  // with the live limit's share
-constexpr double enough = 0.6;        // of real time
-constexpr double margin = 1.5;        // by which it may be exceeded before a method in use is left
-constexpr double resolved = 0.3;      // h ω of a motion that steps of h follow
+constexpr double bound_share = 1.25;     // with the live limit's share
+constexpr double real_time_share = 0.6;  // of real time
+constexpr double margin = 1.5;           // by which it may be exceeded before a method in use is left
+constexpr double resolved = 0.3;         // h ω of a motion that steps of h follow
 }  // namespace
 
 template <class Real>
@@ -27,7 +27,7 @@ MethodFacts MethodChoice<Real>::facts() {
   facts.used = s_.method;
   facts.step_cost = step_cost();
   facts.explicit_share = explicit_share();
-  facts.enough = enough;
+  facts.enough = real_time_share;
   if (!is_explicit(s_.method) && !s_.implicit && !s_.halt) s_.lowest_frequency = lowest_frequency();
   facts.lowest_frequency = s_.lowest_frequency;
   facts.resolved = resolved;
@@ -54,7 +54,7 @@ void MethodChoice<Real>::reconsider() {
 template <class Real>
 double MethodChoice<Real>::explicit_load() const {
   const SolverSettings& solver = s_.setup->solver;
-  return solver.step ? *solver.step / s_.limit.stable : explicit_share() / enough;
+  return solver.step ? *solver.step / s_.limit.stable : explicit_share() / real_time_share;
 }
 
 template <class Real>

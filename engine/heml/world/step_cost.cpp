@@ -8,12 +8,12 @@ namespace {
 // averaged nodal pressure, relaxation, whose scalar code asks the law twice; a law whose parameters differ between
 // elements is asked once by such code. Active stress is estimated: a third of the operations of viscosity.
 constexpr double a_loop = 20, active = 6, pressure = 22, relaxation = 200, scalar_law = 100;
-constexpr double step = 2;  // its own: positions, velocities, its bound
+constexpr double step_alone = 2;  // its own: positions, velocities, its bound
 
 double cost_of(const KernelInfo& kernel, const WorldSetup& setup) {
   const Material& material = setup.materials[kernel.material].material;
   const ForceCost law = find_law(material.law)->cost;
-  double cost = step + (setup.solver.single_precision ? law.in_float : law.in_double);
+  double cost = step_alone + (setup.solver.single_precision ? law.in_float : law.in_double);
   if (!material.fields.empty())
     cost += scalar_law;
   else if (material.plasticity)
