@@ -7,7 +7,15 @@
 namespace heml {
 namespace {
 
-/// Nodes of a kind of solid element; 0: another kind. Shells, trusses and springs have no volume.
+std::optional<CellShape> feb_shape(std::string_view type) {
+  if (type == "tet4" || type == "tet10") return CellShape::tetrahedron;
+  if (type == "pyra5") return CellShape::pyramid;
+  if (type == "penta6") return CellShape::wedge;
+  if (type == "hex8") return CellShape::brick;
+  return std::nullopt;
+}
+
+/// Shells, trusses and springs have no volume.
 bool is_other_solid(std::string_view type) {
   constexpr std::string_view solids[] = {"hex", "penta", "pyra", "tet"};
   return std::any_of(std::begin(solids), std::end(solids), [&](std::string_view s) { return type.starts_with(s); });
@@ -71,21 +79,26 @@ class FebMeshReader {
                  block.attribute_or_empty("mat")};
     if (part.name.empty()) part.name = fmt::format("part {}", mesh_.parts.size() + 1);
     const int region = static_cast<int>(mesh_.parts.size()) + 1;
-    const bool linear = part.element == "tet4", quadratic = part.element == "tet10";
+    const auto shape = feb_shape(part.element);
+    const bool quadratic = part.element == "tet10";
+    part.divided = shape && shape != CellShape::tetrahedron;
     for (const XmlElement element : block.children()) {
-      if (!linear && !quadratic) {
+      if (!shape) {
         mesh_.read.ignored += is_other_solid(part.element);
         continue;
       }
-      const std::vector<int> ids = integers_in(element, "the nodes of an element", linear ? 4 : 10);
+      const std::vector<int> ids = integers_in(element, "the nodes of an element", quadratic ? 10 : corners_of(*shape));
       std::array<int, 10> nodes{};
       for (std::size_t a = 0; a < ids.size(); ++a) nodes[a] = node_of(element, ids[a]);
-      mesh_.read.mesh.tets.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
-      mesh_.read.mesh.regions.push_back(region);
+      if (part.divided)
+        divide_cell(*shape, std::span(nodes).first(ids.size()), mesh_.read);
+      else
+        mesh_.read.mesh.tets.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
+      mesh_.read.mesh.regions.resize(mesh_.read.mesh.tets.size(), region);
       if (quadratic)  // the middles of 12, 23, 31, 14, 24, 34, as in VTK
         add_midedges({nodes[4], nodes[5], nodes[6], nodes[7], nodes[8], nodes[9]}, vtk_midedges, mesh_.read);
     }
-    if (linear || quadratic) mesh_.read.mesh.region_names[region] = part.name;
+    if (shape) mesh_.read.mesh.region_names[region] = part.name;
     mesh_.parts.push_back(std::move(part));
   }
 
@@ -104,14 +117,18 @@ class FebMeshReader {
   void read_surface(const XmlElement& set) {
     FebSurface& surface = mesh_.surfaces[name_of(set)];
     for (const XmlElement facet : set.children()) {
-      const bool linear = facet.name() == "tri3";
-      if (!linear && facet.name() != "tri6") {
+      const std::size_t count = facet.name() == "tri3" ? 3 : facet.name() == "quad4" ? 4 : 6;
+      if (count == 6 && facet.name() != "tri6") {
         surface.has_other_facets = true;
         continue;
       }
-      const std::vector<int> ids = integers_in(facet, "the nodes of a facet", linear ? 3 : 6);
-      surface.triangles.push_back({node_of(facet, ids[0]), node_of(facet, ids[1]), node_of(facet, ids[2])});
-      for (const int id : ids) surface.nodes.push_back(node_of(facet, id));
+      std::vector<int> nodes;
+      for (const int id : integers_in(facet, "the nodes of a facet", count)) nodes.push_back(node_of(facet, id));
+      surface.nodes.insert(surface.nodes.end(), nodes.begin(), nodes.end());
+      if (count == 4)  // as the side of a brick is divided
+        std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end()), nodes.end());
+      surface.triangles.push_back({nodes[0], nodes[1], nodes[2]});
+      if (count == 4) surface.triangles.push_back({nodes[0], nodes[2], nodes[3]});
     }
     sort_once(surface.nodes);
   }

@@ -20,12 +20,13 @@ struct FebPart {
   std::string element;                    ///< tet4, hex8, ...
   std::string material;                   ///< number (2.5) or name; empty: the file gives none
   std::optional<XmlElement> domain = {};  ///< of it in MeshDomains
+  bool divided = false;                   ///< its elements into tetrahedra (split_cell.hpp)
 };
 
 struct FebSurface {
-  std::vector<Triangle> triangles;  ///< corners, wound as in the file
+  std::vector<Triangle> triangles;  ///< corners, wound as in the file; two for a quadrilateral
   std::vector<int> nodes;           ///< of its triangles, with those in the middle of edges; ascending, each once
-  bool has_other_facets = false;    ///< of four corners, which are left out
+  bool has_other_facets = false;    ///< of further kinds, which are left out
 };
 
 /// Nodes are numbered from 0 in the order of the file.

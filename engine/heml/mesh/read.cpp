@@ -45,14 +45,12 @@ std::size_t count_linear(const ReadMesh& read) {
   return read.mesh.tets.size() - quadratic;
 }
 
-/// Leaves out the nodes that are in the middle of edges alone.
-void drop_midedges(const std::filesystem::path& path, std::size_t linear, ReadMesh& read) {
+/// Leaves out the nodes of a list that are no corners of tetrahedra. Returns how many.
+std::size_t leave_out(const std::vector<int>& nodes, ReadMesh& read) {
   std::vector<bool> is_corner(read.mesh.nodes.size(), false), dropped(read.mesh.nodes.size(), false);
   for (const Tet& tet : read.mesh.tets)
     for (const int n : tet) is_corner[static_cast<std::size_t>(n)] = true;
-  for (const auto& nodes : read.midedges)
-    for (const int n : nodes)
-      if (n >= 0) dropped[static_cast<std::size_t>(n)] = !is_corner[static_cast<std::size_t>(n)];
+  for (const int n : nodes) dropped[static_cast<std::size_t>(n)] = !is_corner[static_cast<std::size_t>(n)];
   std::vector<int> number(read.mesh.nodes.size(), -1);
   std::vector<Vec3> kept;
   for (std::size_t n = 0; n < number.size(); ++n) {
@@ -62,10 +60,25 @@ void drop_midedges(const std::filesystem::path& path, std::size_t linear, ReadMe
   }
   for (Tet& tet : read.mesh.tets)
     for (int& n : tet) n = number[static_cast<std::size_t>(n)];
-  warn("{}: {} tetrahedra have ten nodes; their {} mid-edge nodes were left out{}", path.string(),
-       read.mesh.tets.size() - linear, number.size() - kept.size(),
-       linear > 0 ? fmt::format(", since {} have four", linear) : " (solver.element p2 uses them)");
   read.mesh.nodes = std::move(kept);
+  return number.size() - read.mesh.nodes.size();
+}
+
+void drop_midedges(const std::filesystem::path& path, std::size_t linear, ReadMesh& read) {
+  std::vector<int> middles;
+  for (const auto& nodes : read.midedges)
+    if (nodes[0] >= 0) middles.insert(middles.end(), nodes.begin(), nodes.end());
+  warn("{}: {} tetrahedra have ten nodes; their {} mid-edge nodes were left out{}", path.string(),
+       read.mesh.tets.size() - linear, leave_out(middles, read),
+       linear > 0 ? fmt::format(", since {} have four", linear) : " (solver.element p2 uses them)");
+}
+
+void tell_divided(const std::filesystem::path& path, std::size_t middles, const ReadMesh& read) {
+  warn("{}: {} bricks, wedges and pyramids were divided into tetrahedra{}", path.string(), read.divided,
+       middles > 0 ? fmt::format("; the {} nodes in the middle of their edges and faces were left out", middles) : "");
+  if (read.bent > 0)
+    warn("{}: {} of them are so bent that their tetrahedra overlap: mesh it with tetrahedra, or with straighter cells",
+         path.string(), read.bent);
 }
 
 }  // namespace
@@ -89,15 +102,14 @@ TetMesh read_tet_mesh(const std::filesystem::path& path, MidEdges* midedges) {
   if (read.real_regions) warn("{}: the cell array 'region' is not of integers and was ignored", path.string());
   if (read.more_steps) warn("{}: holds fields for several time steps; the first was taken", path.string());
   if (read.ignored > 0)
-    warn("{}: {} cells with a volume are not tetrahedra of four or ten nodes and were ignored", path.string(),
-         read.ignored);
+    warn("{}: {} cells with a volume are of kinds that are not read and were ignored", path.string(), read.ignored);
   if (midedges) midedges->clear();
-  if (read.midedges.empty()) return std::move(read.mesh);
   const std::size_t linear = count_linear(read);
   if (midedges && linear == 0)
     *midedges = std::move(read.midedges);
-  else
+  else if (!read.midedges.empty())
     drop_midedges(path, linear, read);
+  if (read.divided > 0) tell_divided(path, leave_out(read.middles, read), read);
   return std::move(read.mesh);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <heml/mesh/element_sets.hpp>
 #include <heml/mesh/readers.hpp>
+#include <optional>
 
 namespace heml {
 namespace {
@@ -38,6 +39,15 @@ std::string plain(std::string_view word) {
   for (const char c : word)
     if (c != ' ' && c != '\t') text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return text;
+}
+
+/// By the number of nodes of a solid element; corners stand first, and are wound as in VTK but for its wedge.
+std::optional<CellShape> shape_of_solid(std::size_t nodes) {
+  if (nodes == 4 || nodes == 10) return CellShape::tetrahedron;
+  if (nodes == 5 || nodes == 13) return CellShape::pyramid;
+  if (nodes == 6 || nodes == 15 || nodes == 18) return CellShape::wedge;
+  if (nodes == 8 || nodes == 20 || nodes == 27) return CellShape::brick;
+  return std::nullopt;
 }
 
 /// How many nodes a solid element has by its type, C3D10M: 10; 0: no solid, or not known.
@@ -147,8 +157,8 @@ class AbaqusReader {
       in_.fail(fmt::format("element {} has more than {} nodes", element_[0], element_nodes_));
     if (element_.size() < 1 + element_nodes_) return;
     if (has_set_) sets_.add(set_, {element_[0], element_[0]});
-    if (element_nodes_ == 4 || element_nodes_ == 10)
-      tetrahedron();
+    if (const auto shape = shape_of_solid(element_nodes_))
+      solid(*shape);
     else
       ++read_.ignored;
     element_.clear();
@@ -160,11 +170,14 @@ class AbaqusReader {
                fmt::format("{} by its type", element_nodes_));
   }
 
-  void tetrahedron() {
-    std::array<int, 10> nodes{};
+  void solid(CellShape shape) {
+    std::array<int, 27> nodes{};
     for (std::size_t a = 0; a < element_nodes_; ++a) nodes[a] = nodes_.find(element_[1 + a], in_);
-    element_numbers_.push_back(element_[0]);
-    read_.mesh.tets.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
+    if (shape != CellShape::tetrahedron)
+      divide_cell(shape, std::span(nodes).first(element_nodes_), read_);
+    else
+      read_.mesh.tets.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
+    element_numbers_.resize(read_.mesh.tets.size(), element_[0]);
     if (element_nodes_ == 10)  // the middles of 12, 23, 31, 14, 24, 34, as in VTK
       add_midedges({nodes[4], nodes[5], nodes[6], nodes[7], nodes[8], nodes[9]}, vtk_midedges, read_);
   }

@@ -6,17 +6,29 @@
 #include <array>
 #include <heml/mesh/gmsh_data.hpp>
 #include <map>
+#include <optional>
 
 namespace heml {
 namespace {
 
-constexpr int gmsh_tetrahedron = 4, gmsh_quadratic_tetrahedron = 11;
+// Numbers of nodes of Gmsh's types from 1, "MSH file format"; 0: not used.
+constexpr std::array<std::size_t, 32> gmsh_nodes{0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
+                                                 8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
 
-bool is_tetrahedron(long long type) { return type == gmsh_tetrahedron || type == gmsh_quadratic_tetrahedron; }
+/// Of the types that are read, whose corners stand first.
+std::optional<CellShape> gmsh_shape(long long type) {
+  if (type == 4 || type == 11) return CellShape::tetrahedron;
+  if (type == 5 || type == 12 || type == 17) return CellShape::brick;
+  if (type == 6 || type == 13 || type == 18) return CellShape::wedge;
+  if (type == 7 || type == 14 || type == 19) return CellShape::pyramid;
+  return std::nullopt;
+}
 
-// Hexahedra, prisms, pyramids, and volume elements of higher order but tetrahedra of ten nodes.
+bool is_solid(long long type) { return gmsh_shape(type).has_value(); }
+
+// Volume elements of higher order.
 bool is_other_gmsh_volume(long long type) {
-  constexpr std::array volumes{5, 6, 7, 12, 13, 14, 17, 18, 19, 29, 30, 31, 71, 79, 90, 91, 92, 93, 106, 118};
+  constexpr std::array volumes{29, 30, 31, 71, 79, 90, 91, 92, 93, 106, 118};
   return std::find(volumes.begin(), volumes.end(), type) != volumes.end();
 }
 
@@ -140,19 +152,19 @@ class GmshReader {
       const long long number = in_.wide_integer("an element number");
       const long long type = in_.integer("an element type");
       read_.ignored += is_other_gmsh_volume(type);
-      if (!is_tetrahedron(type)) continue;
+      if (!is_solid(type)) continue;
       int region = 0;
       if (version == 1) {
         region = static_cast<int>(in_.integer("a physical tag"));
         in_.wide_integer("an elementary tag");
-        const int nodes = type == gmsh_tetrahedron ? 4 : 10;
-        in_.integer("the number of nodes of a tetrahedron", nodes, nodes);
+        const auto nodes = static_cast<long long>(gmsh_nodes[static_cast<std::size_t>(type)]);
+        in_.integer("the number of nodes of an element", nodes, nodes);
       } else {
         const long long tags = in_.integer("a number of tags", 0);
         if (tags > 0) region = static_cast<int>(in_.integer("a physical tag"));
         for (long long t = 1; t < tags; ++t) in_.wide_integer("a tag");
       }
-      tetrahedron(number, type, region, false);
+      solid(number, type, region, false);
     }
   }
 
@@ -165,7 +177,7 @@ class GmshReader {
       const auto tags = static_cast<std::size_t>(values_.integer("a number of tags", 0));
       if (in_group > count - found) in_.fail(fmt::format("{} elements announced, more in their groups", count));
       found += in_group;
-      if (!is_tetrahedron(type)) {
+      if (!is_solid(type)) {
         skip_elements(type, in_group, tags, sizeof(int));
         continue;
       }
@@ -173,20 +185,17 @@ class GmshReader {
         const long long number = values_.integer("an element number");
         const int region = tags > 0 ? static_cast<int>(values_.integer("a physical tag")) : 0;
         if (tags > 1) values_.skip(tags - 1, sizeof(int));
-        tetrahedron(number, type, region, false);
+        solid(number, type, region, false);
       }
     }
   }
 
   // Passes over binary elements: a number, tags, and as many nodes as the type has.
   void skip_elements(long long type, std::size_t count, std::size_t tags, std::size_t number_bytes) {
-    // Gmsh's types from 1, "MSH file format"; 0: not used.
-    constexpr std::array<std::size_t, 32> nodes{0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
-                                                8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
-    const bool known = type > 0 && type < static_cast<long long>(nodes.size());
+    const bool known = type > 0 && type < static_cast<long long>(gmsh_nodes.size());
     if (!known) in_.fail(fmt::format("elements of type {} are not known", type), "save without them, or as ASCII");
     if (is_other_gmsh_volume(type)) read_.ignored += static_cast<long>(count);
-    values_.skip(count, (1 + tags + nodes[static_cast<std::size_t>(type)]) * number_bytes);
+    values_.skip(count, (1 + tags + gmsh_nodes[static_cast<std::size_t>(type)]) * number_bytes);
   }
 
   void entities_4() {
@@ -262,7 +271,7 @@ class GmshReader {
       const long long entity = values_.integer("an entity"), type = values_.integer("an element type");
       const std::size_t in_block = values_.count("the number of elements in the block", 2, 2 * values_.size_bytes());
       found += in_block;
-      if (values_.binary() && !is_tetrahedron(type)) {
+      if (values_.binary() && !is_solid(type)) {
         skip_elements(type, in_block, 0, values_.size_bytes());
         continue;
       }
@@ -270,31 +279,30 @@ class GmshReader {
       const auto region = volume_region_.find(entity);
       for (std::size_t e = 0; e < in_block; ++e) {
         values_.line("an element");
-        if (!is_tetrahedron(type)) continue;
+        if (!is_solid(type)) continue;
         const long long number = values_.wide_integer("an element number");
-        tetrahedron(number, type, region == volume_region_.end() ? 0 : region->second, true);
+        solid(number, type, region == volume_region_.end() ? 0 : region->second, true);
       }
     }
     if (found != count) in_.fail(fmt::format("{} elements announced, {} in the blocks", count, found));
   }
 
   // wide: binary node numbers are of version 4.1.
-  void tetrahedron(long long number, long long type, int region, bool wide) {
-    const auto node = [&] {
-      const long long node_number = values_.wide_integer("a node number", wide);
-      return numbers_.find(node_number, in_);
-    };
-    Tet tet;
-    for (int& corner : tet) corner = node();
-    tet_numbers_.push_back({number, static_cast<int>(read_.mesh.tets.size())});
-    read_.mesh.tets.push_back(tet);
-    if (type == gmsh_quadratic_tetrahedron) {
-      std::array<int, 6> middles;
-      for (int& middle : middles) middle = node();
-      add_midedges(middles, gmsh_midedges, read_);
-    }
-    values_.end_line("a tetrahedron's nodes");
-    read_.mesh.regions.push_back(region);
+  void solid(long long number, long long type, int region, bool wide) {
+    const CellShape shape = *gmsh_shape(type);
+    std::array<int, 27> all{};
+    const std::span<int> nodes = std::span(all).first(gmsh_nodes[static_cast<std::size_t>(type)]);
+    for (int& node : nodes) node = numbers_.find(values_.wide_integer("a node number", wide), in_);
+    values_.end_line("an element's nodes");
+    const std::size_t first = read_.mesh.tets.size();
+    if (shape != CellShape::tetrahedron)
+      divide_cell(shape, nodes, read_);
+    else
+      read_.mesh.tets.push_back({all[0], all[1], all[2], all[3]});
+    if (shape == CellShape::tetrahedron && nodes.size() == 10)
+      add_midedges({all[4], all[5], all[6], all[7], all[8], all[9]}, gmsh_midedges, read_);
+    for (std::size_t t = first; t < read_.mesh.tets.size(); ++t) tet_numbers_.push_back({number, static_cast<int>(t)});
+    read_.mesh.regions.resize(read_.mesh.tets.size(), region);
   }
 
   void reserve_nodes(std::size_t count) {

@@ -3,15 +3,23 @@
 
 #include <cctype>
 #include <heml/mesh/readers.hpp>
+#include <optional>
 
 namespace heml {
 namespace {
 
 bool is_keyword(std::string_view word) { return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])); }
 
+std::optional<CellShape> medit_shape(std::string_view keyword) {
+  if (keyword == "Tetrahedra") return CellShape::tetrahedron;
+  if (keyword == "Hexahedra" || keyword == "Hexaedra") return CellShape::brick;
+  if (keyword == "Prisms" || keyword == "Pentahedra") return CellShape::wedge;
+  if (keyword == "Pyramids") return CellShape::pyramid;
+  return std::nullopt;
+}
+
 bool is_other_medit_volume(std::string_view keyword) {
-  return keyword == "Hexahedra" || keyword == "Hexaedra" || keyword == "Prisms" || keyword == "Pentahedra" ||
-         keyword == "Pyramids" || keyword.starts_with("TetrahedraP") || keyword.starts_with("HexahedraQ");
+  return keyword.starts_with("TetrahedraP") || keyword.starts_with("HexahedraQ");
 }
 
 void read_vertices(Scanner& in, ReadMesh& read) {
@@ -24,17 +32,19 @@ void read_vertices(Scanner& in, ReadMesh& read) {
   }
 }
 
-void read_tetrahedra(Scanner& in, ReadMesh& read) {
-  const std::size_t count = in.count("the number of tetrahedra", 5);
+void read_solids(CellShape shape, std::string_view keyword, Scanner& in, ReadMesh& read) {
+  const std::size_t corners = corners_of(shape), count = in.count("the number of elements", corners + 1);
   const long long nodes = static_cast<long long>(read.mesh.nodes.size());
-  if (nodes == 0) in.fail("Tetrahedra before Vertices");
-  read.mesh.tets.reserve(count);
-  read.mesh.regions.reserve(count);
-  for (std::size_t t = 0; t < count; ++t) {
-    Tet tet;
-    for (int& node : tet) node = static_cast<int>(in.integer("a tetrahedron's vertex", 1, nodes)) - 1;
-    read.mesh.tets.push_back(tet);
-    read.mesh.regions.push_back(static_cast<int>(in.integer("a tetrahedron's reference")));
+  if (nodes == 0) in.fail(std::string(keyword) + " before Vertices");
+  for (std::size_t c = 0; c < count; ++c) {
+    std::array<int, 8> cell{};
+    for (std::size_t i = 0; i < corners; ++i)
+      cell[i] = static_cast<int>(in.integer("an element's vertex", 1, nodes)) - 1;
+    if (shape != CellShape::tetrahedron)
+      divide_cell(shape, std::span(cell).first(corners), read);
+    else
+      read.mesh.tets.push_back({cell[0], cell[1], cell[2], cell[3]});
+    read.mesh.regions.resize(read.mesh.tets.size(), static_cast<int>(in.integer("an element's reference")));
   }
 }
 
@@ -54,8 +64,8 @@ ReadMesh read_medit(std::string file, std::string_view text) {
       in.integer("the dimension", 3, 3);
     } else if (keyword == "Vertices") {
       read_vertices(in, read);
-    } else if (keyword == "Tetrahedra") {
-      read_tetrahedra(in, read);
+    } else if (const auto shape = medit_shape(keyword)) {
+      read_solids(*shape, keyword, in, read);
     } else {
       if (is_other_medit_volume(keyword)) read.ignored += static_cast<long>(in.count("a number of cells", 5));
       while (in.has_word() && !is_keyword(in.peek())) in.word("a value");

@@ -7,7 +7,20 @@
 namespace heml {
 namespace {
 
-constexpr int vtk_tetra = 10, vtk_quadratic_tetra = 24;
+struct VtkCell {
+  int type;
+  CellShape shape;
+  std::size_t nodes;
+};
+
+/// vtkCellType.h; corners stand first in all of them.
+constexpr VtkCell vtk_cells[] = {
+    {10, CellShape::tetrahedron, 4}, {24, CellShape::tetrahedron, 10}, {11, CellShape::brick, 8},
+    {12, CellShape::brick, 8},       {25, CellShape::brick, 20},       {29, CellShape::brick, 27},
+    {33, CellShape::brick, 24},      {13, CellShape::wedge, 6},        {26, CellShape::wedge, 15},
+    {31, CellShape::wedge, 12},      {32, CellShape::wedge, 18},       {14, CellShape::pyramid, 5},
+    {27, CellShape::pyramid, 13},    {37, CellShape::pyramid, 19}};
+constexpr int vtk_voxel = 11;                   // corners of its quadrilaterals by rows
 constexpr std::size_t max_fields = 1000;        // field_in() searches linearly
 constexpr std::size_t max_values_per_byte = 4;  // field values per byte of the file; fields may omit most tetrahedra
 
@@ -32,26 +45,38 @@ void check_count(std::size_t fields, const Scanner& in) {
   if (fields > max_fields) in.fail(fmt::format("more than {} fields of elements", max_fields), "save fewer");
 }
 
-// VTK volume cells other than tetrahedra of four or ten nodes (vtkCellType.h).
+// Prisms of five and six sides, polyhedra, and cells of higher order (vtkCellType.h).
 bool is_other_vtk_volume(long long type) {
-  return (type >= 11 && type <= 16) || (type >= 25 && type <= 27) || type == 29 || (type >= 31 && type <= 33) ||
-         type == 37 || type == 42 || (type >= 71 && type <= 74) || (type >= 78 && type <= 81);
+  return type == 15 || type == 16 || type == 42 || (type >= 71 && type <= 74) || (type >= 78 && type <= 81);
 }
 
-void add_tet(const VtkCells& cells, std::size_t c, int first_node, const Scanner& in, ReadMesh& read) {
+const VtkCell* find_vtk_cell(long long type) {
+  const auto found =
+      std::find_if(std::begin(vtk_cells), std::end(vtk_cells), [&](const VtkCell& cell) { return cell.type == type; });
+  return found == std::end(vtk_cells) ? nullptr : &*found;
+}
+
+void add_cell(const VtkCell& cell, const VtkCells& cells, std::size_t c, int first_node, const Scanner& in,
+              ReadMesh& read) {
+  constexpr std::string_view names[] = {"tetrahedron", "pyramid", "wedge", "brick"};
   const long long begin = cells.offsets[c], end = cells.offsets[c + 1];
-  const std::size_t count = cells.types[c] == vtk_tetra ? 4 : 10;
-  if (end - begin != static_cast<long long>(count))
-    in.fail(fmt::format("cell {} is a tetrahedron of {} nodes", c, end - begin), fmt::format("{}", count));
+  if (end - begin != static_cast<long long>(cell.nodes))
+    in.fail(fmt::format("cell {} is a {} of {} nodes", c, names[static_cast<std::size_t>(cell.shape)], end - begin),
+            fmt::format("{}", cell.nodes));
   const long long nodes = static_cast<long long>(read.mesh.nodes.size()) - first_node;
-  std::array<int, 10> all{};
-  for (std::size_t a = 0; a < count; ++a) {
+  std::array<int, 27> all{};
+  for (std::size_t a = 0; a < cell.nodes; ++a) {
     const long long node = cells.connectivity[static_cast<std::size_t>(begin) + a];
     if (node < 0 || node >= nodes) in.fail(fmt::format("cell {} names node {}, there are {}", c, node, nodes));
     all[a] = first_node + static_cast<int>(node);
   }
+  if (cell.type == vtk_voxel) {
+    std::swap(all[2], all[3]);
+    std::swap(all[6], all[7]);
+  }
+  if (cell.shape != CellShape::tetrahedron) return divide_cell(cell.shape, std::span(all).first(cell.nodes), read);
   read.mesh.tets.push_back({all[0], all[1], all[2], all[3]});
-  if (count == 10) add_midedges({all[4], all[5], all[6], all[7], all[8], all[9]}, vtk_midedges, read);
+  if (cell.nodes == 10) add_midedges({all[4], all[5], all[6], all[7], all[8], all[9]}, vtk_midedges, read);
 }
 
 int region_of(const VtkCells& cells, std::size_t c, const Scanner& in) {
@@ -73,14 +98,15 @@ void check_sizes(const VtkCells& cells, const Scanner& in) {
               fmt::format("{} a cell", field.components));
 }
 
-// Copies the cells' values to the mesh's fields. tet_cells: the cells that are the mesh's last tetrahedra.
-void add_fields(const VtkCells& cells, const std::vector<std::size_t>& tet_cells, const Scanner& in, TetMesh& mesh) {
+// Copies the cells' values to the mesh's fields. cells_of_tets: of the mesh's last tetrahedra.
+void add_fields(const VtkCells& cells, const std::vector<std::size_t>& cells_of_tets, const Scanner& in,
+                TetMesh& mesh) {
   for (const ElementField& field : cells.fields) field_in(mesh, field.name, field.components, in);
   pad_fields(mesh, in);
-  const std::size_t first_tet = mesh.tets.size() - tet_cells.size();
+  const std::size_t first_tet = mesh.tets.size() - cells_of_tets.size();
   for (const ElementField& field : cells.fields) {
     double* to = field_in(mesh, field.name, field.components, in).values.data() + field.components * first_tet;
-    for (const std::size_t c : tet_cells)
+    for (const std::size_t c : cells_of_tets)
       to = std::copy_n(field.values.data() + field.components * c, field.components, to);
   }
 }
@@ -90,6 +116,13 @@ void add_fields(const VtkCells& cells, const std::vector<std::size_t>& tet_cells
 void add_midedges(const std::array<int, 6>& nodes, const std::array<std::size_t, 6>& order, ReadMesh& read) {
   read.midedges.resize(read.mesh.tets.size(), {-1, -1, -1, -1, -1, -1});
   for (std::size_t e = 0; e < 6; ++e) read.midedges.back()[e] = nodes[order[e]];
+}
+
+void divide_cell(CellShape shape, std::span<const int> nodes, ReadMesh& read) {
+  const std::size_t corners = corners_of(shape);
+  read.bent += !split_cell(shape, nodes.first(corners), read.mesh.nodes, read.mesh.tets);
+  read.middles.insert(read.middles.end(), nodes.begin() + static_cast<std::ptrdiff_t>(corners), nodes.end());
+  ++read.divided;
 }
 
 std::string plain_name(std::string_view name) {
@@ -162,19 +195,21 @@ int NodeNumbers::find(long long number, const Scanner& in) const {
 
 void add_vtk_cells(const VtkCells& cells, int first_node, const Scanner& in, ReadMesh& read) {
   check_sizes(cells, in);
-  std::vector<std::size_t> tet_cells;
+  const std::size_t first_tet = read.mesh.tets.size();
+  std::vector<std::size_t> cells_of_tets;
   for (std::size_t c = 0; c < cells.types.size(); ++c) {
     const long long begin = cells.offsets[c], end = cells.offsets[c + 1];
     if (begin < 0 || begin > end || end > static_cast<long long>(cells.connectivity.size()))
       in.fail(fmt::format("offsets of cell {} are {} and {}", c, begin, end),
               fmt::format("ascending, up to {}", cells.connectivity.size()));
     read.ignored += is_other_vtk_volume(cells.types[c]);
-    if (cells.types[c] != vtk_tetra && cells.types[c] != vtk_quadratic_tetra) continue;
-    add_tet(cells, c, first_node, in, read);
-    read.mesh.regions.push_back(region_of(cells, c, in));
-    tet_cells.push_back(c);
+    const VtkCell* cell = find_vtk_cell(cells.types[c]);
+    if (!cell) continue;
+    add_cell(*cell, cells, c, first_node, in, read);
+    read.mesh.regions.resize(read.mesh.tets.size(), region_of(cells, c, in));
+    cells_of_tets.resize(read.mesh.tets.size() - first_tet, c);
   }
-  add_fields(cells, tet_cells, in, read.mesh);
+  add_fields(cells, cells_of_tets, in, read.mesh);
 }
 
 }  // namespace heml

@@ -2,6 +2,7 @@
 // One reader per format, for text in memory. Called by read_tet_mesh() and the fuzzers. All throw InputError.
 #include <heml/mesh/quadratic.hpp>
 #include <heml/mesh/scanner.hpp>
+#include <heml/mesh/split_cell.hpp>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace heml {
 struct ReadMesh {
   TetMesh mesh;
   MidEdges midedges = {};     ///< of the tetrahedra up to the last of ten nodes; −1 in linear ones
+  long divided = 0;           ///< number of bricks, wedges and pyramids among the cells
+  long bent = 0;              ///< of them, those whose tetrahedra overlap
+  std::vector<int> middles = {};  ///< their nodes that are no corners
   long ignored = 0;           ///< number of other volume cells
   bool real_regions = false;  ///< skipped a cell array `region` of real numbers
   bool more_steps = false;    ///< skipped further time steps of a field
@@ -29,6 +33,9 @@ inline constexpr std::array<std::size_t, 6> gmsh_midedges{0, 2, 3, 1, 5, 4}, vtk
 
 /// Gives the last tetrahedron of `read` its mid-edge nodes, in the order of its file.
 void add_midedges(const std::array<int, 6>& nodes, const std::array<std::size_t, 6>& order, ReadMesh& read);
+
+/// Appends the tetrahedra of a cell of another shape, without their regions. nodes: of the cell, its corners first.
+void divide_cell(CellShape shape, std::span<const int> nodes, ReadMesh& read);
 
 /// A name that fits on a line of every format: without control characters, and with ? for bytes that are not UTF-8.
 std::string plain_name(std::string_view name);
@@ -71,7 +78,7 @@ struct VtkCells {
 /// Adds a field of the cells, replacing one of the same name. Throws (Scanner::fail of `in`) if there are too many.
 void add_cell_field(ElementField field, const Scanner& in, VtkCells& cells);
 
-/// Appends the tetrahedra among the cells and their fields; node 0 of the cells is the mesh's `first_node`. Throws
+/// Appends the tetrahedra of the cells and their fields; node 0 of the cells is the mesh's `first_node`. Throws
 /// (Scanner::fail of `in`) if the arrays do not match each other or the mesh's nodes.
 void add_vtk_cells(const VtkCells& cells, int first_node, const Scanner& in, ReadMesh& read);
 

@@ -170,7 +170,7 @@ class FebBoundaryReader {
 
   /// A scene's list takes the nodes in the middle of edges between its nodes: the file has to want the same.
   void check_midedges(const Scene& scene) {
-    if (!scene.solver.quadratic) return;
+    if (!scene.solver.quadratic || model_.mesh.read.midedges.empty()) return;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!has_its_midedges(scene, axis)) return;
   }

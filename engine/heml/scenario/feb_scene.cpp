@@ -102,6 +102,13 @@ void read_control(FebModel& model) {
   }
 }
 
+bool is_computed(const FebPart& part) { return part.element == "tet4" || part.element == "tet10" || part.divided; }
+
+bool has_divided(const FebModel& model) {
+  return std::any_of(model.mesh.parts.begin(), model.mesh.parts.end(),
+                     [](const FebPart& part) { return part.divided; });
+}
+
 void check_parts(FebModel& model) {
   for (const FebPart& part : model.mesh.parts) {
     const std::string formulation = part.domain ? part.domain->attribute_or_empty("type") : "";
@@ -111,16 +118,22 @@ void check_parts(FebModel& model) {
                                         "elastic-solid",
                                         part.name, plain_name(formulation)));
   }
-  for (const FebPart& part : model.mesh.parts)
-    if (part.element != "tet4" && part.element != "tet10")
-      model.findings.refuse(part.tag,
-                            fmt::format("part '{}' is of {} elements; heml computes tet4 and tet10: mesh it with these",
-                                        part.name, part.element.empty() ? "unnamed" : part.element));
+  for (const FebPart& part : model.mesh.parts) {
+    if (!is_computed(part))
+      model.findings.refuse(part.tag, fmt::format("part '{}' is of {} elements; heml computes tet4, tet10, and "
+                                                  "divides hex8, penta6 and pyra5: mesh it with these",
+                                                  part.name, part.element.empty() ? "unnamed" : part.element));
+    else if (part.divided)
+      model.findings.note(part.tag, fmt::format("part '{}' is of {} elements: each is divided into tetrahedra, here "
+                                                "quadratic ones (\"element\": \"p2\")",
+                                                part.name, part.element));
+  }
   const auto has = [&](const char* element) {
     return std::any_of(model.mesh.parts.begin(), model.mesh.parts.end(),
                        [&](const FebPart& part) { return part.element == element; });
   };
-  if (has("tet4") && has("tet10")) model.findings.refuse(model.mesh.parts.front().tag, "tet4 and tet10 in one body");
+  if (has("tet10") && (has("tet4") || has_divided(model)))
+    model.findings.refuse(model.mesh.parts.front().tag, "tet10 and other elements in one body");
 }
 
 std::optional<XmlElement> material_element(const FebModel& model, const FebPart& part) {
@@ -136,7 +149,7 @@ std::optional<XmlElement> material_element(const FebModel& model, const FebPart&
 void read_materials(FebModel& model, Scene& scene) {
   for (std::size_t k = 0; k < model.mesh.parts.size(); ++k) {
     const FebPart& part = model.mesh.parts[k];
-    if (part.element != "tet4" && part.element != "tet10") continue;
+    if (!is_computed(part)) continue;
     const auto element = material_element(model, part);
     if (!element) {
       model.findings.refuse(part.tag, fmt::format("part '{}' has no material{}", part.name,
@@ -180,10 +193,11 @@ void read_contact(FebModel& model, Scene& scene) {
 void set_method(FebModel& model, Scene& scene) {
   SolverSettings& solver = scene.solver;
   solver.duration = model.control.end;
-  solver.quadratic =
-      !model.mesh.read.midedges.empty() && std::none_of(model.mesh.parts.begin(), model.mesh.parts.end(),
-                                                        [](const FebPart& part) { return part.element == "tet4"; });
-  if (solver.quadratic) model.findings.note(model.mesh.parts.front().tag, "tet10 elements: \"element\": \"p2\"");
+  const bool of_ten_nodes =
+      !model.mesh.read.midedges.empty() && std::all_of(model.mesh.parts.begin(), model.mesh.parts.end(),
+                                                       [](const FebPart& part) { return part.element == "tet10"; });
+  if (of_ten_nodes) model.findings.note(model.mesh.parts.front().tag, "tet10 elements: \"element\": \"p2\"");
+  solver.quadratic = of_ten_nodes || (has_divided(model) && model.mesh.read.midedges.empty());
   if (!model.control.dynamic) {
     solver.integrator = Integrator::static_equilibrium;
     solver.rate = default_rate(solver.integrator);

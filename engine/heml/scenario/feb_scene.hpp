@@ -1,7 +1,8 @@
 #pragma once
 // Scenes from FEBio files (.feb, format 2.5, 3.0, 4.0):
 //
-//   Geometry, Mesh        tet4, tet10 (p2); parts become regions with their names         mesh/feb_mesh.hpp
+//   Geometry, Mesh        tet4; tet10 as p2; hex8, penta6, pyra5 divided, as p2;
+//                         parts become regions with their names                           mesh/feb_mesh.hpp
 //   Material, MeshDomains a material for each region                                      feb_material.hpp
 //   Control               static, or dynamic with its step and duration
 //   LoadData              ramps                                                           feb_curve.hpp

@@ -70,7 +70,8 @@ inline constexpr KeyInfo scene[] = {
 };
 inline constexpr KeyInfo mesh[] = {
     {"file", form::text, "", one_mesh,
-     "tetrahedra: `.msh`, `.mesh`, `.vtk`, `.vtu`, `.inp`, `.feb`, `.node` with `.ele`"},
+     "tetrahedra, and bricks, wedges and pyramids, which are divided: `.msh`, `.mesh`, `.vtk`, `.vtu`, `.inp`, `.feb`, "
+     "`.node` with `.ele`"},
     {"surface", form::text, "", one_mesh,
      "closed surface, filled with tetrahedra by TetGen: `.obj`, `.stl`, `.ply` ..."},
     {"tetgen", object, "", "`{}`", "how a surface is filled"},

@@ -1,8 +1,12 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <heml/mesh/feb_mesh.hpp>
 #include <heml/mesh/read.hpp>
+#include <heml/mesh/surface.hpp>
 #include <messages.hpp>
+#include <set>
 
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/samples.hpp"
@@ -17,6 +21,11 @@ using Names = std::map<int, std::string>;
 FebMesh mesh_of(const std::string& text) {
   const XmlDocument document("a.feb", text);
   return read_feb_mesh(feb_root(document));
+}
+
+Triangle sorted(Triangle face) {
+  std::sort(face.begin(), face.end());
+  return face;
 }
 
 bool refuses(const std::string& text, const std::string& part) {
@@ -77,11 +86,35 @@ TEST_CASE("ten-node tetrahedra have their mid-edge nodes in the order of FEBio")
   CHECK(mesh.surfaces.at("s").nodes == std::vector<int>{0, 1, 2, 4, 5, 6});
 }
 
-TEST_CASE("bricks are counted, and shells are no solids") {
+TEST_CASE("other solids are counted, and shells are no solids") {
   const std::string text = test::feb_cube({});
-  const std::string brick = "<Elements type=\"hex8\" name=\"h\"><elem id=\"9\">1,2,3,4,5,6,7,8</elem></Elements>";
+  const std::string brick = "<Elements type=\"hex20\" name=\"h\"><elem id=\"9\">1,2,3,4,5,6,7,8</elem></Elements>";
   CHECK(mesh_of(replaced(text, "<NodeSet", brick + "<NodeSet")).read.ignored == 1);
-  CHECK(mesh_of(replaced(text, "<NodeSet", replaced(brick, "hex8", "quad4") + "<NodeSet")).read.ignored == 0);
+  CHECK(mesh_of(replaced(text, "<NodeSet", replaced(brick, "hex20", "quad4") + "<NodeSet")).read.ignored == 0);
+}
+
+TEST_CASE("bricks are divided, and the quadrilaterals of surfaces as their sides are") {
+  for (const std::array<int, 8>& order : {std::array{1, 2, 4, 3, 5, 6, 8, 7}, std::array{7, 3, 1, 5, 8, 4, 2, 6}}) {
+    std::string nodes, brick;  // node i + 2 j + 4 k + 1 at (i, j, k)
+    for (int n = 0; n < 8; ++n)
+      nodes += fmt::format("<node id=\"{}\">{},{},{}</node>", n + 1, n & 1, n >> 1 & 1, n >> 2 & 1);
+    for (const int id : order) brick += fmt::format("{}{}", brick.empty() ? "" : ",", id);
+    const FebMesh mesh =
+        mesh_of("<febio_spec version=\"4.0\"><Mesh><Nodes>" + nodes +
+                "</Nodes><Elements type=\"hex8\" name=\"p\"><elem id=\"1\">" + brick +
+                "</elem></Elements><Surface name=\"top\"><quad4 id=\"1\">8,7,5,6</quad4></Surface>" +
+                "<Surface name=\"other\"><quad8 id=\"1\">8,7,5,6,1,2,3,4</quad8></Surface></Mesh></febio_spec>");
+    CHECK(mesh.read.mesh.tets.size() == 6);
+    CHECK(mesh.read.mesh.regions == std::vector<int>(6, 1));
+    CHECK(mesh.read.mesh.region_names.at(1) == "p");
+    CHECK(mesh.parts[0].divided);
+    CHECK(mesh.surfaces.at("top").nodes == std::vector<int>{4, 5, 6, 7});
+    CHECK(mesh.surfaces.at("other").has_other_facets);
+    std::set<Triangle> faces;  // by their sorted nodes
+    for (const Triangle& face : extract_boundary(mesh.read.mesh).triangles) faces.insert(sorted(face));
+    CHECK(faces.size() == 12);
+    for (const Triangle& facet : mesh.surfaces.at("top").triangles) CHECK(faces.contains(sorted(facet)));
+  }
 }
 
 TEST_CASE("a damaged mesh is refused with its line") {

@@ -109,16 +109,16 @@ TEST_CASE("refuses a number with two signs") {
 }
 
 TEST_CASE("counts other cells with a volume and keeps the tetrahedra") {
-  std::string text = replaced(samples::gmsh_2, "3 2 0 40 20 21", "3 5 0 40 20 21 33 10 40 20 21");
+  std::string text = replaced(samples::gmsh_2, "3 2 0 40 20 21", "3 30 0 40 20 21 33 10 40 20 21");
   CHECK(read_gmsh("a", text).ignored == 1);
-  text = replaced(samples::medit, "Triangles\n1\n1 2 3 5", "Prisms\n1\n1 2 3 4 5 1 0");
+  text = replaced(samples::medit, "Triangles\n1\n1 2 3 5", "TetrahedraP2\n1\n1 2 3 4 5 1 0");
   CHECK(read_medit("a", text).ignored == 1);
-  text = replaced(samples::vtk, "5 10 10", "14 10 10");
+  text = replaced(samples::vtk, "5 10 10", "42 10 10");
   CHECK(read_vtk("a", text).ignored == 1);
 }
 
 TEST_CASE("refuses a file without tetrahedra and counts what it holds") {
-  const std::string text = replaced(samples::vtk, "5 10 10", "5 25 14");
+  const std::string text = replaced(samples::vtk, "5 10 10", "5 42 15");
   CHECK(says(refusal_of("a.vtk", text), {"a.vtk", "5 nodes but no tetrahedra", "2 other cells"}));
 }
 

@@ -342,6 +342,38 @@ TEST_CASE("symmetry planes leave nodes free to slide, and a cube that is pulled 
   for (std::size_t n = 0; n < X.size(); ++n) CHECK((x[n] - Vec3(a, b, b).cwiseProduct(X[n])).norm() < 1e-9);
 }
 
+TEST_CASE("a brick becomes quadratic tetrahedra that contract, and bear pressure on its sides, as the law says") {
+  const double lambda = 1000 * 0.3 / (1.3 * 0.4), mu = 1000 / 2.6, a = 1.4, b = free_stretch(a, lambda, mu);
+  const double P = mu * (a - 1 / a) + lambda * std::log(a * b * b) / a;  // of the side x = 1 at rest
+  const auto with_bricks = [](std::string text) {
+    const std::size_t from = text.find("<Elements"), to = text.find("<NodeSet");
+    text.replace(from, to - from,
+                 "<Elements type=\"hex8\" name=\"core\"><elem id=\"1\">10,20,40,30,50,60,80,70</elem></Elements>");
+    for (std::size_t at; (at = text.find("<tri3")) < text.size();) text.erase(at, text.find("</tri3>") + 7 - at);
+    const std::size_t side = text.find("<Surface name=\"x1\">");
+    text.insert(side + 19, "<quad4 id=\"1\">20,40,80,60</quad4>");
+    const std::size_t shell = text.find("<SolidDomain name=\"shell\"");
+    return text.erase(shell, text.find("/>", shell) + 2 - shell);
+  };
+  const std::string rollers = on_set("x0", "zero displacement", "<x_dof>1</x_dof>") +
+                              on_set("y0", "zero displacement", "<y_dof>1</y_dof>") +
+                              on_set("z0", "zero displacement", "<z_dof>1</z_dof>");
+  const std::string moved =
+      rollers + on_set("x1", "prescribed displacement", "<dof>x</dof><value lc=\"1\">0.4</value>");
+  const std::string pressed =
+      fmt::format("<surface_load type=\"pressure\" surface=\"x1\"><pressure lc=\"1\">{:.17g}</pressure></surface_load>",
+                  -P / (b * b));
+  for (const std::string& text : {feb_cube(with_boundary(moved)), feb_cube(with_boundary(rollers, pressed))}) {
+    const Import import(with_bricks(text));
+    CHECK(import.warns("part 'core' is of hex8 elements: each is divided into tetrahedra"));
+    CHECK(import.scene.solver.element() == "p2");
+    const auto world = solved(import.scene);
+    const std::vector<Vec3> X = load_setup(import.scene).mesh.nodes, x = world->positions();
+    CHECK(X.size() == 8 + 12 + 6 + 1);
+    for (std::size_t n = 0; n < X.size(); ++n) CHECK((x[n] - Vec3(a, b, b).cwiseProduct(X[n])).norm() < 1e-7);
+  }
+}
+
 TEST_CASE("all that would change the result is refused in one message with its lines") {
   FebText with = with_boundary(on_set("none", "zero displacement", "<x_dof>1</x_dof>") +
                                    on_set("x1", "normal displacement", ""),
@@ -366,13 +398,16 @@ TEST_CASE("other refusals name what is wrong") {
     REQUIRE(at != std::string::npos);
     return copy.replace(at, from.size(), to);
   };
-  CHECK(refuses(changed("type=\"tet4\"", "type=\"hex8\""),
-                "part 'core' is of hex8 elements; heml computes tet4 and tet10"));
+  CHECK(refuses(changed("type=\"tet4\"", "type=\"hex20\""),
+                "part 'core' is of hex20 elements; heml computes tet4, tet10, and divides hex8"));
   CHECK(refuses(changed("mat=\"stuff\"", "mat=\"other\""), "part 'core' has no material 'other'"));
   CHECK(refuses(changed("mat=\"stuff\"", "mat=\"stuff\" type=\"ut4-solid\""), "is of the formulation 'ut4-solid'"));
   const std::string brick =
       "<Elements type=\"tet10\" name=\"c\"><elem id=\"9\">10,20,30,50,40,60,70,80,40,60</elem></Elements>";
-  CHECK(refuses(changed("<NodeSet", brick + "<NodeSet"), "tet4 and tet10 in one body"));
+  CHECK(refuses(changed("<NodeSet", brick + "<NodeSet"), "tet10 and other elements in one body"));
+  const std::string bricks =
+      "<Elements type=\"hex8\" name=\"d\"><elem id=\"9\">10,20,40,30,50,60,80,70</elem></Elements>";
+  CHECK(refuses(changed("<NodeSet", brick + bricks + "<NodeSet"), "tet10 and other elements in one body"));
   CHECK(refuses(changed("type=\"solid\"", "type=\"biphasic\""), "the module is biphasic"));
   CHECK(refuses(changed("<time_steps>10", "<time_steps>0"), "0 time steps"));
   CHECK(refuses(changed("<time_steps>10", "<analysis>fluid</analysis><time_steps>10"), "the analysis is 'fluid'"));
