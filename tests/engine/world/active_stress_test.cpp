@@ -118,8 +118,8 @@ TEST_CASE("active stress: what cannot be is refused and changes nothing") {
 }
 
 TEST_CASE("active stress: a muscle with a field of fibres takes other numbers and laws, and no other field") {
-  const auto muscle = [](const char* law, double stress) {
-    WorldSetup setup = block(Integrator::verlet, false, stress);
+  const auto muscle = [](const char* law, double active) {
+    WorldSetup setup = block(Integrator::verlet, false, active);
     Material& material = setup.materials[0].material;
     material = match_moduli(material, *find_law(material.law), *find_law(law));
     material.fibre = Vec3::Zero();
