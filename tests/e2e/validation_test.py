@@ -31,8 +31,8 @@ class Validation(unittest.TestCase):
         self.assertEqual(len(missed), self.done.stderr.count(", error "), self.done.stderr)
 
     def test_rows_say_what_they_compare(self):
-        self.assertEqual({row["problem"] for row in self.rows}, {"sphere", "cylinder", "elastica", "cook", "relaxation",
-                                                             "land_beam", "land_ventricle", "land_contraction"})
+        self.assertEqual({row["problem"] for row in self.rows}, {"sphere", "cylinder", "elastica", "cook", "relaxation", "creep",
+                                                             "viscous_loop", "plastic_cycle", "land_beam", "land_ventricle", "land_contraction"})
         for row in self.rows:
             error = abs(float(row["ours"]) / float(row["reference"]) - 1)
             self.assertAlmostEqual(float(row["error"]), error, places=12)
@@ -50,7 +50,7 @@ class Validation(unittest.TestCase):
     def test_the_page_stands_alone(self):
         page = (self.out / "report.html").read_text()
         self.assertIn("</html>", page)
-        self.assertEqual(page.count("data:image/png;base64"), 8)
+        self.assertEqual(page.count("data:image/png;base64"), 11)
         self.assertNotIn("<link", page)
 
     def test_a_second_run_takes_up_the_first(self):

@@ -50,6 +50,22 @@ std::span<const Benchmark> benchmarks() {
        "G(t)/G∞ = 1 + Σ γ exp(−t/τ), times μ γ of the neo-Hookean law. Methods spread the jump over their first step, "
        "as if it had come half a step later: an error of about h/2τ.",
        "Time, s", "Shear stress", "Pa", relaxation},
+      {"creep", "Creep under a constant stress",
+       "A block between rollers is drawn by a stress of 10 Pa, applied at once; one branch of relaxation in shear "
+       "(γ 1, 0.1 s), an elastic bulk.",
+       "σ J(t)/3 + σ/9κ with the compliance J(t) = (1 − γ/(1+γ) exp(−t/(τ(1+γ))))/G∞ of the linear solid; the strain "
+       "is about 0.001.",
+       "Time, s", "Strain", "-", creep},
+      {"viscous_loop", "Cycles of a relaxing solid",
+       "A block is sheared to and fro by 0.02 at constant speed, 0.4 s a cycle; two branches of relaxation (0.1 and "
+       "0.5 s). The third cycle.",
+       "The Prony series, integrated exactly over each step.", "Shear", "Shear stress", "Pa", viscous_loop},
+      {"plastic_cycle", "Cycles of a yielding solid",
+       "A block is sheared to and fro by 0.02, four times the shear at which it yields; von Mises plasticity with "
+       "linear isotropic hardening.",
+       "Return mapping in one dimension, exact for linear hardening at small strains. Elements flow after each step: "
+       "the stress is ahead by a part of one step's.",
+       "Shear", "Shear stress", "Pa", plastic_cycle},
       {"land_beam", "Land's beam (problem 1)",
        "A beam of 10 × 1 × 1 mm of heart muscle, fibres along it (`guccione` with C 2 kPa, bf 8, bt 2, bfs 4), clamped "
        "at one end. A pressure of 4 Pa on its lower face follows the deformed face.",

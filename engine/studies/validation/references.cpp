@@ -87,6 +87,34 @@ double incompressible_sphere_pressure(double shear, double inner, double outer, 
   return shear * (term(b) - term(a));
 }
 
+double LinearSolid::stress_after(double strain_change, double seconds) {
+  strain_ += strain_change;
+  double stress = shear_ * strain_;
+  for (std::size_t b = 0; b < branches_.size(); ++b) {
+    const auto [strength, time] = branches_[b];
+    const double gone = -std::expm1(-seconds / time);
+    stresses_[b] += shear_ * strength * strain_change * time / seconds * gone - stresses_[b] * gone;
+    stress += stresses_[b];
+  }
+  return stress;
+}
+
+double creep_strain(double stress, const Rubber& at_last, const Branch& branch, double time) {
+  const double part = branch.strength / (1 + branch.strength);
+  const double compliance = (1 - part * std::exp(-time / (branch.time * (1 + branch.strength)))) / at_last.shear;
+  return stress * (compliance / 3 + 1 / (9 * at_last.bulk));
+}
+
+double PlasticShear::stress_after(double strain_change) {
+  const double trial = stress_ + shear_ * strain_change, limit = (yield_ + hardening_ * equivalent_) / std::sqrt(3);
+  const double flow = std::max(0.0, (std::abs(trial) - limit) / (shear_ + hardening_ / 3));
+  const double before = flow > 0 ? limit : 0, after = std::abs(trial) - shear_ * flow;
+  work_ += flow * (before + after) / 2;
+  equivalent_ += flow / std::sqrt(3);
+  stress_ = std::copysign(after, trial);
+  return stress_;
+}
+
 Elastica elastica_of(double load) {
   constexpr int steps = 1000;
   constexpr double h = 1.0 / steps;

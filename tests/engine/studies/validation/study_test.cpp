@@ -59,6 +59,23 @@ TEST_CASE("validation: Land's beam holds, and a softer one is noticed") {
   CHECK(shortfalls_of(land_beam({true, softer})) > 0);
 }
 
+TEST_CASE("validation: materials with memory hold, and other memories are noticed") {
+  const MakeWorld slower = [](WorldSetup setup) {
+    for (PronyTerm& branch : setup.materials[0].material.relaxation) branch.tau *= 1.1;
+    return make_world(std::move(setup));
+  };
+  const MakeWorld softer = [](WorldSetup setup) {
+    setup.materials[0].material.plasticity->hardening *= 0.9;
+    return make_world(std::move(setup));
+  };
+  for (const auto run : {creep, viscous_loop}) {
+    CHECK(shortfalls_of(run({true, make_world})) == 0);
+    CHECK(shortfalls_of(run({true, slower})) > 0);
+  }
+  CHECK(shortfalls_of(plastic_cycle({true, make_world})) == 0);
+  CHECK(shortfalls_of(plastic_cycle({true, softer})) > 0);
+}
+
 TEST_CASE("validation: material points are carried by the motion of their elements") {
   const Material material = rubber(1e3, 1e4);
   const auto curved = [](const Vec3& X) { return Vec3(X.x() + 0.1 * X.y() * X.y(), X.y(), X.z()); };
