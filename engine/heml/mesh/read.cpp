@@ -45,40 +45,56 @@ std::size_t count_linear(const ReadMesh& read) {
   return read.mesh.tets.size() - quadratic;
 }
 
-/// Leaves out the nodes of a list that are no corners of tetrahedra. Returns how many.
-std::size_t leave_out(const std::vector<int>& nodes, ReadMesh& read) {
-  std::vector<bool> is_corner(read.mesh.nodes.size(), false), dropped(read.mesh.nodes.size(), false);
-  for (const Tet& tet : read.mesh.tets)
+/// Of a list, the nodes that are no corners of tetrahedra, each once.
+std::vector<int> without_corners(std::vector<int> nodes, const TetMesh& mesh) {
+  std::vector<bool> is_corner(mesh.nodes.size(), false);
+  for (const Tet& tet : mesh.tets)
     for (const int n : tet) is_corner[static_cast<std::size_t>(n)] = true;
-  for (const int n : nodes) dropped[static_cast<std::size_t>(n)] = !is_corner[static_cast<std::size_t>(n)];
-  std::vector<int> number(read.mesh.nodes.size(), -1);
+  std::erase_if(nodes, [&](int n) { return is_corner[static_cast<std::size_t>(n)]; });
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+/// Leaves out nodes of no tetrahedron, and numbers the others anew.
+void leave_out(const std::vector<int>& nodes, TetMesh& mesh) {
+  std::vector<bool> dropped(mesh.nodes.size(), false);
+  for (const int n : nodes) dropped[static_cast<std::size_t>(n)] = true;
+  std::vector<int> number(mesh.nodes.size(), -1);
   std::vector<Vec3> kept;
   for (std::size_t n = 0; n < number.size(); ++n) {
     if (dropped[n]) continue;
     number[n] = static_cast<int>(kept.size());
-    kept.push_back(read.mesh.nodes[n]);
+    kept.push_back(mesh.nodes[n]);
   }
-  for (Tet& tet : read.mesh.tets)
+  for (Tet& tet : mesh.tets)
     for (int& n : tet) n = number[static_cast<std::size_t>(n)];
-  read.mesh.nodes = std::move(kept);
-  return number.size() - read.mesh.nodes.size();
+  mesh.nodes = std::move(kept);
 }
 
-void drop_midedges(const std::filesystem::path& path, std::size_t linear, ReadMesh& read) {
+/// The nodes of ten-node tetrahedra that are in the middle of edges alone; tells of them.
+std::vector<int> unused_midedges(const std::filesystem::path& path, std::size_t linear, const ReadMesh& read) {
   std::vector<int> middles;
   for (const auto& nodes : read.midedges)
     if (nodes[0] >= 0) middles.insert(middles.end(), nodes.begin(), nodes.end());
+  middles = without_corners(std::move(middles), read.mesh);
   warn("{}: {} tetrahedra have ten nodes; their {} mid-edge nodes were left out{}", path.string(),
-       read.mesh.tets.size() - linear, leave_out(middles, read),
+       read.mesh.tets.size() - linear, middles.size(),
        linear > 0 ? fmt::format(", since {} have four", linear) : " (solver.element p2 uses them)");
+  return middles;
 }
 
-void tell_divided(const std::filesystem::path& path, std::size_t middles, const ReadMesh& read) {
+/// The nodes of bricks, wedges and pyramids that are no corners; tells of the cells and of them.
+std::vector<int> unused_middles(const std::filesystem::path& path, const ReadMesh& read) {
+  const std::vector<int> middles = without_corners(read.middles, read.mesh);
   warn("{}: {} bricks, wedges and pyramids were divided into tetrahedra{}", path.string(), read.divided,
-       middles > 0 ? fmt::format("; the {} nodes in the middle of their edges and faces were left out", middles) : "");
+       middles.empty()
+           ? ""
+           : fmt::format("; the {} nodes in the middle of their edges and faces were left out", middles.size()));
   if (read.bent > 0)
     warn("{}: {} of them are so bent that their tetrahedra overlap: mesh it with tetrahedra, or with straighter cells",
          path.string(), read.bent);
+  return middles;
 }
 
 }  // namespace
@@ -105,11 +121,16 @@ TetMesh read_tet_mesh(const std::filesystem::path& path, MidEdges* midedges) {
     warn("{}: {} cells with a volume are of kinds that are not read and were ignored", path.string(), read.ignored);
   if (midedges) midedges->clear();
   const std::size_t linear = count_linear(read);
+  std::vector<int> unused;
   if (midedges && linear == 0)
     *midedges = std::move(read.midedges);
   else if (!read.midedges.empty())
-    drop_midedges(path, linear, read);
-  if (read.divided > 0) tell_divided(path, leave_out(read.middles, read), read);
+    unused = unused_midedges(path, linear, read);
+  if (read.divided > 0) {
+    const std::vector<int> middles = unused_middles(path, read);
+    unused.insert(unused.end(), middles.begin(), middles.end());
+  }
+  if (!unused.empty()) leave_out(unused, read.mesh);
   return std::move(read.mesh);
 }
 

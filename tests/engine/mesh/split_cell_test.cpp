@@ -135,23 +135,32 @@ TEST_CASE("a brick whose tetrahedra overlap is told of") {
 }
 
 TEST_CASE("nodes in the middle of the edges of bricks are left out, and it is told") {
-  // A quadratic brick, whose last node is the corner of a tetrahedron beside it.
+  // A quadratic brick, whose last node is the corner of a tetrahedron beside it; then one of ten nodes beside both.
   std::string text = "*NODE\n";
-  for (int n = 1; n <= 20; ++n) {
+  for (int n = 1; n <= 30; ++n) {
     const Vec3 x = n <= 8 ? cube[static_cast<std::size_t>(n - 1)] : Vec3(2, 2, n);
     text += fmt::format("{}, {}, {}, {}\n", n, x.x(), x.y(), x.z());
   }
+  const std::string ten = "*ELEMENT, TYPE=C3D10\n3, 1, 2, 3, 30, 21, 22, 23, 24, 25, 9\n";
   text += "*ELEMENT, TYPE=C3D20R\n1";
   for (int n = 1; n <= 20; ++n) text += fmt::format(",{}{}", n == 13 ? "\n" : " ", n);
-  const TemporaryFolder folder;
-  const auto file = folder.file("brick.inp", text + "\n*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 20\n");
-  WarningCollector warnings;
-  const TetMesh mesh = read_tet_mesh(file);
-  CHECK(mesh.nodes.size() == 9);
-  CHECK(mesh.nodes[8] == Vec3(2, 2, 20));
-  CHECK(mesh.tets.back() == Tet{0, 1, 2, 8});
-  REQUIRE(warnings.texts().size() == 1);
-  CHECK(says(warnings.texts()[0], {"1 bricks, wedges and pyramids were divided", "11 nodes in the middle"}));
+  text += "\n*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 20\n";
+  for (const bool with_ten : {false, true}) {
+    const TemporaryFolder folder;
+    const auto file = folder.file("brick.inp", with_ten ? text + ten : text);
+    const WarningCollector warnings;
+    MidEdges midedges;
+    const TetMesh mesh = read_tet_mesh(file, &midedges);
+    CHECK(midedges.empty());
+    CHECK(mesh.nodes.size() == (with_ten ? 9 + 5 : 9 + 10));  // nodes that no element names stay
+    CHECK(mesh.nodes[8] == Vec3(2, 2, 20));
+    CHECK(mesh.nodes.back() == Vec3(2, 2, 30));
+    CHECK(mesh.tets[6] == Tet{0, 1, 2, 8});
+    if (with_ten) CHECK(mesh.tets[7] == Tet{0, 1, 2, static_cast<int>(mesh.nodes.size()) - 1});
+    REQUIRE(warnings.texts().size() == (with_ten ? 2 : 1));
+    CHECK(says(warnings.texts().back(), {"1 bricks, wedges and pyramids were divided", "11 nodes in the middle"}));
+    if (with_ten) CHECK(says(warnings.texts()[0], {"1 tetrahedra have ten nodes", "6 mid-edge nodes"}));
+  }
 }
 
 namespace {
