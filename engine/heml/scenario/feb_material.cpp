@@ -142,6 +142,18 @@ Material ogden_unconstrained(FebParameters& given, const FebUnits& units) {
   return {energy_definition(text, names), std::move(values)};
 }
 
+/// W = (λ+2μ)/4β (exp Q − 1), Q = β ((2μ−λ) (I1−3) + λ (I2−3))/(λ+2μ) − 2 β ln J.
+Material holmes_mow(FebParameters& given, const FebUnits& units) {
+  const Material lame = with_lame("stvk", given, units);
+  const double beta = given.get("beta");
+  if (!(beta > 0)) given.refuse("has beta: has to be greater than 0 (at 0 it has no energy)");
+  if (!given.valid()) return {};
+  return {energy_definition("(lam+2*mu)/(4*beta)*(exp(beta*((2*mu-lam)*(I1-3) + lam*(I2-3))/(lam+2*mu) - "
+                            "2*beta*log(J)) - 1)",
+                            {"lam", "mu", "beta"}),
+          {lame.parameters[0], lame.parameters[1], beta}};
+}
+
 struct FebLaw {
   std::string_view type;
   Material (*convert)(FebParameters& given, const FebUnits& units);
@@ -164,9 +176,14 @@ constexpr FebLaw feb_laws[] = {
        return uncoupled("veronda_westmann", {units.stress() * given.get("c1"), given.get("c2")}, given, units);
      }},
     {"Yeoh", yeoh},
+    {"Gent",
+     [](FebParameters& given, const FebUnits& units) {
+       return uncoupled("gent", {units.stress() * given.get("G"), given.get("Jm")}, given, units);
+     }},
     {"Ogden", ogden},
     {"coupled Mooney-Rivlin", coupled_mooney_rivlin},
     {"Ogden unconstrained", ogden_unconstrained},
+    {"Holmes-Mow", holmes_mow},
 };
 
 }  // namespace

@@ -67,6 +67,16 @@ const Case cases[] = {
        const double a = first(isochoric_part(l)) - 3;
        return 100 * a + 20 * a * a + 3 * a * a * a + 4000 * log_volume(l) * log_volume(l);
      }},
+    {"Gent", "type=\"Gent\"><G>300</G><Jm>12</Jm><k>8000</k>",
+     [](const Vec3& l) {
+       return -300 * 12 / 2.0 * std::log(1 - (first(isochoric_part(l)) - 3) / 12) +
+              4000 * log_volume(l) * log_volume(l);
+     }},
+    {"Holmes-Mow", "type=\"Holmes-Mow\"><E>1000</E><v>0.3</v><beta>0.8</beta>",
+     [](const Vec3& l) {
+       const double Q = 0.8 / (lambda + 2 * mu) * ((2 * mu - lambda) * (first(l) - 3) + lambda * (second(l) - 3));
+       return (lambda + 2 * mu) / 3.2 * (std::exp(Q) / std::pow(volume_ratio(l), 1.6) - 1);
+     }},
     {"Ogden", "type=\"Ogden\"><c1>300</c1><m1>2.5</m1><c3>80</c3><m3>-2</m3><k>8000</k>",
      [](const Vec3& l) {
        const Vec3 i = isochoric_part(l);
@@ -155,6 +165,8 @@ TEST_CASE("what no law computes exactly is refused by name and line") {
   CHECK(refuses("type=\"Mooney-Rivlin\"><c1>1</c1><k>1</k><pressure_model>other</pressure_model>", "'other'"));
   CHECK(refuses("type=\"Yeoh\"><c1>1</c1><c4>1</c4><k>1</k>", "has c4"));
   CHECK(refuses("type=\"Ogden\"><k>1</k>", "has no term"));
+  CHECK(refuses("type=\"Holmes-Mow\"><E>1</E><v>0.3</v><beta>0</beta>", "has beta"));
+  CHECK(refuses("type=\"Holmes-Mow\"><E>1</E><v>0.3</v>", "has no <beta>"));
   CHECK(refuses("type=\"Ogden\"><c1>1</c1><m1>0</m1><k>1</k>", "has m1 = 0"));
 }
 
