@@ -55,7 +55,7 @@ std::span<const Benchmark> benchmarks() {
        "(γ 1, 0.1 s), an elastic bulk.",
        "σ J(t)/3 + σ/9κ with the compliance J(t) = (1 − γ/(1+γ) exp(−t/(τ(1+γ))))/G∞ of the linear solid; the strain "
        "is about 0.001.",
-       "Time, s", "Strain", "-", creep},
+       "Time, s", "Strain", "m/m", creep},
       {"viscous_loop", "Cycles of a relaxing solid",
        "A block is sheared to and fro by 0.02 at constant speed, 0.4 s a cycle; two branches of relaxation (0.1 and "
        "0.5 s). The third cycle.",

@@ -145,7 +145,7 @@ Finding creep(const Trial& trial) {
       if (world->halt()) solved.failed = world->halt()->message;
       const double strain = world->positions()[static_cast<std::size_t>(end[0])].x() / edge - 1;
       ours.points.push_back({world->time(), strain});
-      finding.rows.push_back(row_of(solved, fmt::format("strain at {} s", until), "-", strain,
+      finding.rows.push_back(row_of(solved, fmt::format("strain at {} s", until), "m/m", strain,
                                     creep_strain(stress, at_last, branch, until), "closed form", 0.005,
                                     fmt::format("{}, steps of {} ms", integrator_name(integrator), 1e3 * step)));
     }
