@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <heml/mesh/split_cell.hpp>
 
 namespace heml {

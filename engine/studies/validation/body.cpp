@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <heml/mesh/quadratic.hpp>
+#include <heml/mesh/split_cell.hpp>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -10,16 +11,6 @@
 
 namespace heml::validation {
 namespace {
-
-/// Local nodes of the faces of a hexahedron whose node k has the coordinates of k's bits.
-constexpr std::array<std::array<std::size_t, 4>, 6> hexahedron_faces{
-    {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
-
-void add_tet(TetMesh& mesh, Tet tet) {
-  const auto at = [&](std::size_t a) { return mesh.nodes[static_cast<std::size_t>(tet[a])]; };
-  if (signed_volume(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
-  mesh.tets.push_back(tet);
-}
 
 /// Nodes by lattice coordinates, numbered as they are asked for.
 struct Lattice {
@@ -83,17 +74,8 @@ double warped(double u) { return std::tan(std::numbers::pi / 4 * u); }
 
 TetMesh split_hexahedra(std::vector<Vec3> nodes, const std::vector<std::array<int, 8>>& hexahedra) {
   TetMesh mesh{std::move(nodes), {}, {}, "hexahedra"};
-  for (const auto& hexahedron : hexahedra) {
-    const int first = *std::min_element(hexahedron.begin(), hexahedron.end());
-    for (const auto& face : hexahedron_faces) {
-      std::array<int, 4> quad{};
-      for (std::size_t k = 0; k < 4; ++k) quad[k] = hexahedron[face[k]];
-      if (std::find(quad.begin(), quad.end(), first) != quad.end()) continue;
-      std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
-      add_tet(mesh, {first, quad[0], quad[1], quad[2]});
-      add_tet(mesh, {first, quad[0], quad[2], quad[3]});
-    }
-  }
+  for (const auto& h : hexahedra)
+    split_cell(CellShape::brick, std::array{h[0], h[1], h[3], h[2], h[4], h[5], h[7], h[6]}, mesh.nodes, mesh.tets);
   mesh.regions.assign(mesh.tets.size(), 0);
   return mesh;
 }

@@ -6,8 +6,8 @@ namespace heml::validation {
 
 using Map = std::function<Vec3(const Vec3&)>;
 
-/// A structured mesh of hexahedra, each split into six tetrahedra. Faces are split by the diagonal through their node
-/// with the smallest number, so that neighbours agree.
+/// A structured mesh of hexahedra, each split into six tetrahedra (heml/mesh/split_cell.hpp). Node k of a hexahedron
+/// has the coordinates of k's bits.
 TetMesh split_hexahedra(std::vector<Vec3> nodes, const std::vector<std::array<int, 8>>& hexahedra);
 
 /// A shell of cubes: the surface of the cube [−1, 1]³ in n × n squares a side, times `layers` of radius
