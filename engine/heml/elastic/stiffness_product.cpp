@@ -29,6 +29,7 @@ template <class Real>
     const Real* of_packet = K + edge_entries * lanes * p;
     for (std::size_t part = 0; part < Register<Real>::count; ++part) {
       V sum[3] = {};  // of the rows, by axis: the force at corner 0
+#pragma GCC unroll 9
       for (int r = 0; r < 9; ++r) {
         V f = {};
 #pragma GCC unroll 9

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstring>
+#include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/virtual_corners.hpp>
 
 namespace heml {
@@ -20,6 +22,74 @@ constexpr std::array<Product, 64> products = [] {
     }
   return all;
 }();
+
+/// Three coordinates and a fourth value, which is not used: one register.
+template <class Real>
+struct Triple {
+  typedef Real Type __attribute__((vector_size(4 * sizeof(Real))));
+};
+
+template <class Real>
+[[gnu::always_inline]] inline typename Triple<Real>::Type read_triple(const Real* from) {
+  typename Triple<Real>::Type value = {from[0], from[1], from[2], 0};
+  return value;
+}
+
+/// Writes 3 count values, and nothing behind them.
+template <std::size_t count, class Real>
+[[gnu::always_inline]] inline void write_triples(const typename Triple<Real>::Type (&values)[count], Real* to) {
+#pragma GCC unroll 16
+  for (std::size_t k = 0; k + 1 < count; ++k) std::memcpy(to + 3 * k, &values[k], sizeof values[k]);
+  for (std::size_t i = 0; i < 3; ++i) to[3 * (count - 1) + i] = values[count - 1][i];
+}
+
+/// Bx of elements [begin, end).
+template <class Real>
+[[gnu::always_inline]] inline void corners_of_nodes(const std::array<int, 10>* nodes, const Real* x, std::size_t begin,
+                                                    std::size_t end, Real* y) {
+  using V = typename Triple<Real>::Type;
+  for (std::size_t t = begin; t < end; ++t) {
+    V at[10], out[16];
+    const auto place = [&](std::size_t a) { return read_triple(x + 3 * static_cast<std::size_t>(nodes[t][a])); };
+    const V first = place(0);
+#pragma GCC unroll 16
+    for (std::size_t a = 0; a < 10; ++a) at[a] = place(a) - first;
+#pragma GCC unroll 16
+    for (V& corner : out) corner = V{};
+#pragma GCC unroll 64
+    for (const Product& p : products) out[p.corner] += static_cast<Real>(p.weight) * at[p.node];
+    write_triples(out, y + 48 * t);
+  }
+}
+
+/// Bᵀh of elements [begin, end), 3 a node of theirs.
+template <class Real>
+[[gnu::always_inline]] inline void nodes_of_corners(const std::size_t* first_corner, const Real* h, std::size_t begin,
+                                                    std::size_t end, Real* of_element) {
+  using V = typename Triple<Real>::Type;
+  for (std::size_t t = begin; t < end; ++t) {
+    V at[16], out[10];
+#pragma GCC unroll 16
+    for (std::size_t c = 0; c < 16; ++c) at[c] = read_triple(h + 3 * (first_corner[t] + c));
+#pragma GCC unroll 16
+    for (V& node : out) node = V{};
+#pragma GCC unroll 64
+    for (const Product& p : products) out[p.node] += static_cast<Real>(p.weight) * at[p.corner];
+    write_triples(out, of_element + 30 * t);
+  }
+}
+
+template <class Real>
+HEML_WIDE void wide_corners_of_nodes(const std::array<int, 10>* nodes, const Real* x, std::size_t begin,
+                                     std::size_t end, Real* y) {
+  corners_of_nodes(nodes, x, begin, end, y);
+}
+
+template <class Real>
+HEML_WIDE void wide_nodes_of_corners(const std::size_t* first_corner, const Real* h, std::size_t begin, std::size_t end,
+                                     Real* of_element) {
+  nodes_of_corners(first_corner, h, begin, end, of_element);
+}
 
 }  // namespace
 
@@ -49,17 +119,7 @@ template <class Real>
 void VirtualCorners<Real>::positions(const Real* x, std::vector<Real>& y, ThreadTeam& team) const {
   y.resize(48 * nodes_.size());
   team.parallel_for(nodes_.size(), element_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      Real at[10][3], out[16][3] = {};
-      for (std::size_t a = 0; a < 10; ++a)
-        for (std::size_t i = 0; i < 3; ++i)
-          at[a][i] =
-              x[3 * static_cast<std::size_t>(nodes_[t][a]) + i] - x[3 * static_cast<std::size_t>(nodes_[t][0]) + i];
-#pragma GCC unroll 64
-      for (const Product& p : products)
-        for (std::size_t i = 0; i < 3; ++i) out[p.corner][i] += static_cast<Real>(p.weight) * at[p.node][i];
-      std::copy_n(&out[0][0], 48, y.data() + 48 * t);
-    }
+    (has_avx2() ? wide_corners_of_nodes<Real> : corners_of_nodes<Real>)(nodes_.data(), x, begin, end, y.data());
   });
 }
 
@@ -76,14 +136,8 @@ void VirtualCorners<Real>::gather(const std::vector<Real>& h, std::vector<Real>&
                                   ThreadTeam& team) const {
   of_element.resize(30 * nodes_.size());  // N
   team.parallel_for(nodes_.size(), element_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const Real* corner = &h[3 * first_corner_[t]];
-      Real out[10][3] = {};
-#pragma GCC unroll 64
-      for (const Product& p : products)
-        for (std::size_t i = 0; i < 3; ++i) out[p.node][i] += static_cast<Real>(p.weight) * corner[3 * p.corner + i];
-      std::copy_n(&out[0][0], 30, of_element.data() + 30 * t);
-    }
+    (has_avx2() ? wide_nodes_of_corners<Real> : nodes_of_corners<Real>)(first_corner_.data(), h.data(), begin, end,
+                                                                        of_element.data());
   });
   team.parallel_for(nodes(), gather_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
