@@ -1,5 +1,5 @@
 // Whole steps of a hanging cube: explicit and implicit, Saint Venant-Kirchhoff from 320 to a million
-// tetrahedra, the factor of static solves, and mesh edits.
+// tetrahedra, the factor of static solves, quadratic elements, and mesh edits.
 #include <fmt/format.h>
 
 #include <deque>
@@ -7,6 +7,7 @@
 #include <studies/bench.hpp>
 #include <studies/bench_bodies.hpp>
 #include <studies/edit_timing.hpp>
+#include <studies/element_timing.hpp>
 #include <studies/factor_timing.hpp>
 #include <studies/interleaved_timing.hpp>
 #include <studies/naive.hpp>
@@ -140,6 +141,10 @@ std::vector<BenchRow> step_suite(const BenchOptions& options) {
   for (const int n : options.quick ? std::vector<int>{9} : std::vector<int>{6, 12, 20})
     works.push_back([&options, &body = bodies.emplace_back(bench_cube(n, false))](auto& rows) {
       for (BenchRow& row : factor_rows(body, options.quick)) rows.push_back(std::move(row));
+    });
+  for (const int n : options.quick ? std::vector<int>{6} : std::vector<int>{6, 13})
+    works.push_back([&options, n](auto& rows) {
+      for (BenchRow& row : element_rows(n, options.quick)) rows.push_back(std::move(row));
     });
   for (const int n : {13, 27})
     works.push_back([&options, n](auto& rows) {

@@ -93,6 +93,12 @@ class Bench(ProgramCase):
         names = {row["name"] for row in rows}
         self.assertTrue({"cut, layout updated", "cut, layout rebuilt", "removal, whole command"} <= names)
         self.assertTrue({"factor of the stiffness", "solution with the factor"} <= names)
+        for what in ("forces", "verlet", "backward_euler, 1 iteration"):
+            linear, *quadratic = (row for row in rows if row["name"].startswith(what + ", p"))
+            self.assertEqual([row["name"] for row in quadratic], [what + ", p2", what + ", p2_pressure"])
+            for row in quadratic:
+                self.assertEqual((row["nodes"], 8 * row["tets"]), (linear["nodes"], linear["tets"]), "on the same nodes")
+                self.assertAlmostEqual(row["to_linear"] * linear["min"], row["min"], delta=1e-9)
         rows = self.rows_of("roofline")
         self.assertTrue({"peak arithmetic", "triad DRAM", "force"} <= {row["name"] for row in rows})
         for row in rows:

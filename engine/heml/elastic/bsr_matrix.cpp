@@ -5,6 +5,7 @@
 #include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/bsr_matrix.hpp>
 #include <heml/elastic/edge_stiffness.hpp>
+#include <heml/elastic/four.hpp>
 #include <heml/mesh/edit.hpp>
 
 namespace heml {
@@ -14,31 +15,11 @@ constexpr std::size_t row_grain = 512;          // min. rows per thread, which o
 constexpr std::size_t sections_per_thread = 2;  // fewer wait longer for a late thread, more have longer borders
 constexpr int side_by_side = 4;                 // elements added together
 
-typedef float Four __attribute__((vector_size(16)));
+using Row = Four<float>;
 
-[[gnu::always_inline]] inline Four load(const float* from) {
-  Four v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-[[gnu::always_inline]] inline Four load(const double* from) {
-  typedef double Doubles __attribute__((vector_size(32)));
-  Doubles v;
-  std::memcpy(&v, from, sizeof v);
-  return __builtin_convertvector(v, Four);
-}
-
-/// Transposes x, y and z of four elements into one register (x, y, z, 0) per element.
-[[gnu::always_inline]] inline void transpose(const Four (&xyz)[3], Four (&column)[side_by_side]) {
-  const Four zero = {};
-  const Four a = __builtin_shufflevector(xyz[0], xyz[1], 0, 4, 1, 5);
-  const Four b = __builtin_shufflevector(xyz[0], xyz[1], 2, 6, 3, 7);
-  const Four c = __builtin_shufflevector(xyz[2], zero, 0, 4, 1, 5);
-  const Four d = __builtin_shufflevector(xyz[2], zero, 2, 6, 3, 7);
-  column[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-  column[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-  column[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  column[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+template <class Real>
+[[gnu::always_inline]] inline Row read_row(const Real* from) {
+  return __builtin_convertvector(read_four(from), Row);
 }
 
 /// Calls put(corner a, corner b, j, columns) with column j of block (a, b) of each of four elements. k: their
@@ -46,23 +27,23 @@ typedef float Four __attribute__((vector_size(16)));
 template <class Real>
 [[gnu::always_inline]] inline void each_column(const Real* k, const auto& put) {
   constexpr std::size_t packet = ElementGroup<Real>::lanes;
-  const auto put_column = [&](std::size_t a, std::size_t b, int j, const Four(&xyz)[3]) {
-    Four column[side_by_side];
-    transpose(xyz, column);
+  const auto put_column = [&](std::size_t a, std::size_t b, int j, const Row(&xyz)[3]) {
+    Row column[side_by_side] = {xyz[0], xyz[1], xyz[2], {}};
+    transpose(column);
     put(a, b, j, column);
   };
 #pragma GCC unroll 3
   for (int j = 0; j < 3; ++j) {
-    Four of_corner_0[4][3] = {};  // minus the sums of the others, since corner 0 moves all edges back
+    Row of_corner_0[4][3] = {};  // minus the sums of the others, since corner 0 moves all edges back
 #pragma GCC unroll 3
     for (std::size_t b = 1; b < 4; ++b) {
-      Four sum[3] = {};
+      Row sum[3] = {};
 #pragma GCC unroll 3
       for (std::size_t a = 1; a < 4; ++a) {
-        Four xyz[3];
+        Row xyz[3];
         for (int i = 0; i < 3; ++i) {
           const int entry = edge_entry(3 * static_cast<int>(a - 1) + i, 3 * static_cast<int>(b - 1) + j);
-          xyz[i] = load(k + packet * static_cast<std::size_t>(entry));
+          xyz[i] = read_row(k + packet * static_cast<std::size_t>(entry));
           sum[i] -= xyz[i];
           of_corner_0[a][i] -= xyz[i];
         }
@@ -202,11 +183,11 @@ template <class Real>
       return static_cast<std::size_t>(static_cast<unsigned>((*places[l])[4 * a + b]));  // −1 becomes the largest
     };
     if (!(touched & ~mine))
-      each_column(k, [&](std::size_t a, std::size_t b, int j, const Four(&column)[side_by_side]) {
+      each_column(k, [&](std::size_t a, std::size_t b, int j, const Row(&column)[side_by_side]) {
         for (std::size_t l = 0; l < side_by_side; ++l) block_[block_of(l, a, b)].column[j] += column[l];
       });
     else
-      each_column(k, [&](std::size_t a, std::size_t b, int j, const Four(&column)[side_by_side]) {
+      each_column(k, [&](std::size_t a, std::size_t b, int j, const Row(&column)[side_by_side]) {
         for (std::size_t l = 0; l < side_by_side; ++l) {
           const std::size_t block = block_of(l, a, b);
           if (block - first < last - first) block_[block].column[j] += column[l];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/element_group.hpp>
+#include <heml/elastic/four.hpp>
 #include <heml/elastic/step_bound.hpp>
 #include <heml/elastic/tension.hpp>
 #include <heml/materials/law.hpp>
@@ -46,10 +47,15 @@ struct Packet {
   Real x[12][lanes], A[6][lanes], volume[lanes], fibre[3][lanes];
 
   [[gnu::always_inline]] inline Packet(const ElementGroup<Real>& group, const Real* positions, std::size_t first) {
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t l = 0; l < lanes; l += 4) {
+        const int* node = group.node[c].data() + first + l;
+        Four<Real> of_lane[4];
+        for (std::size_t k = 0; k < 4; ++k) of_lane[k] = read_three(positions + 3 * node[k]);
+        transpose(of_lane);
+        for (std::size_t i = 0; i < 3; ++i) write_four(of_lane[i], &x[3 * c + i][l]);
+      }
     for (std::size_t l = 0; l < lanes; ++l) {
-      for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t i = 0; i < 3; ++i)
-          x[3 * c + i][l] = positions[3 * group.node[c][first + l] + static_cast<int>(i)];
       for (std::size_t i = 0; i < 6; ++i) A[i][l] = group.A[i][first + l];
       volume[l] = group.volume[first + l];
       if constexpr (with_fibre)
@@ -80,12 +86,16 @@ struct Corners {
 /// Writes or adds the corner forces of one packet.
 template <class Real, std::size_t lanes>
 [[gnu::always_inline]] inline void write_packet_corners(const Real (&out)[12][lanes], Real* to, bool add) {
-  if (add)
-    for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] += out[i][l];
-  else
-    for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] = out[i][l];
+  for (std::size_t l = 0; l < lanes; l += 4)
+    for (std::size_t i = 0; i < 12; i += 4) {
+      Four<Real> rows[4];
+      for (std::size_t k = 0; k < 4; ++k) rows[k] = read_four(&out[i + k][l]);
+      transpose(rows);
+      for (std::size_t k = 0; k < 4; ++k) {
+        Real* of_lane = to + 12 * (l + k) + i;
+        write_four(add ? read_four(of_lane) + rows[k] : rows[k], of_lane);
+      }
+    }
 }
 
 /// Corner forces of packets [begin, end) into corner (3 reals a corner), overwritten or added to. Returns whether the

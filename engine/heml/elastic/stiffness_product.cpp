@@ -1,5 +1,6 @@
 #include <cstring>
 #include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/elastic/group_loops.hpp>
 #include <heml/elastic/stiffness_product.hpp>
 
 namespace heml {
@@ -19,13 +20,16 @@ template <class Real>
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = Register<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p) {
     alignas(32) Real de[9][lanes], out[12][lanes];
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const Real* d0 = dx + 3 * group.node[0][p * lanes + l];
-      for (std::size_t a = 0; a < 3; ++a) {
-        const Real* d = dx + 3 * group.node[a + 1][p * lanes + l];
-        for (std::size_t i = 0; i < 3; ++i) de[3 * a + i][l] = d[i] - d0[i];
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t l = 0; l < lanes; l += 4) {
+        Four<Real> of_lane[4];
+        for (std::size_t k = 0; k < 4; ++k) {
+          const std::size_t s = p * lanes + l + k;
+          of_lane[k] = read_three(dx + 3 * group.node[a + 1][s]) - read_three(dx + 3 * group.node[0][s]);
+        }
+        transpose(of_lane);
+        for (std::size_t i = 0; i < 3; ++i) write_four(of_lane[i], &de[3 * a + i][l]);
       }
-    }
     const Real* of_packet = K + edge_entries * lanes * p;
     for (std::size_t part = 0; part < Register<Real>::count; ++part) {
       V sum[3] = {};  // of the rows, by axis: the force at corner 0
@@ -45,9 +49,7 @@ template <class Real>
       }
       for (int i = 0; i < 3; ++i) std::memcpy(&out[i][part * width], &sum[i], sizeof sum[i]);
     }
-    Real* to = corner + 3 * (group.first_corner + 4 * p * lanes);
-    for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] = out[i][l];
+    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), false);
   }
 }
 

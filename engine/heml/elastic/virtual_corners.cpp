@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cstring>
 #include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/elastic/four.hpp>
 #include <heml/elastic/virtual_corners.hpp>
 
 namespace heml {
@@ -23,23 +23,11 @@ constexpr std::array<Product, 64> products = [] {
   return all;
 }();
 
-/// Three coordinates and a fourth value, which is not used: one register.
-template <class Real>
-struct Triple {
-  typedef Real Type __attribute__((vector_size(4 * sizeof(Real))));
-};
-
-template <class Real>
-[[gnu::always_inline]] inline typename Triple<Real>::Type read_triple(const Real* from) {
-  typename Triple<Real>::Type value = {from[0], from[1], from[2], 0};
-  return value;
-}
-
 /// Writes 3 count values, and nothing behind them.
 template <std::size_t count, class Real>
-[[gnu::always_inline]] inline void write_triples(const typename Triple<Real>::Type (&values)[count], Real* to) {
+[[gnu::always_inline]] inline void write_threes(const Four<Real> (&values)[count], Real* to) {
 #pragma GCC unroll 16
-  for (std::size_t k = 0; k + 1 < count; ++k) std::memcpy(to + 3 * k, &values[k], sizeof values[k]);
+  for (std::size_t k = 0; k + 1 < count; ++k) write_four(values[k], to + 3 * k);
   for (std::size_t i = 0; i < 3; ++i) to[3 * (count - 1) + i] = values[count - 1][i];
 }
 
@@ -47,10 +35,10 @@ template <std::size_t count, class Real>
 template <class Real>
 [[gnu::always_inline]] inline void corners_of_nodes(const std::array<int, 10>* nodes, const Real* x, std::size_t begin,
                                                     std::size_t end, Real* y) {
-  using V = typename Triple<Real>::Type;
+  using V = Four<Real>;
   for (std::size_t t = begin; t < end; ++t) {
     V at[10], out[16];
-    const auto place = [&](std::size_t a) { return read_triple(x + 3 * static_cast<std::size_t>(nodes[t][a])); };
+    const auto place = [&](std::size_t a) { return read_three(x + 3 * static_cast<std::size_t>(nodes[t][a])); };
     const V first = place(0);
 #pragma GCC unroll 16
     for (std::size_t a = 0; a < 10; ++a) at[a] = place(a) - first;
@@ -58,7 +46,7 @@ template <class Real>
     for (V& corner : out) corner = V{};
 #pragma GCC unroll 64
     for (const Product& p : products) out[p.corner] += static_cast<Real>(p.weight) * at[p.node];
-    write_triples(out, y + 48 * t);
+    write_threes(out, y + 48 * t);
   }
 }
 
@@ -66,16 +54,16 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void nodes_of_corners(const std::size_t* first_corner, const Real* h, std::size_t begin,
                                                     std::size_t end, Real* of_element) {
-  using V = typename Triple<Real>::Type;
+  using V = Four<Real>;
   for (std::size_t t = begin; t < end; ++t) {
     V at[16], out[10];
 #pragma GCC unroll 16
-    for (std::size_t c = 0; c < 16; ++c) at[c] = read_triple(h + 3 * (first_corner[t] + c));
+    for (std::size_t c = 0; c < 16; ++c) at[c] = read_three(h + 3 * (first_corner[t] + c));
 #pragma GCC unroll 16
     for (V& node : out) node = V{};
 #pragma GCC unroll 64
     for (const Product& p : products) out[p.node] += static_cast<Real>(p.weight) * at[p.corner];
-    write_triples(out, of_element + 30 * t);
+    write_threes(out, of_element + 30 * t);
   }
 }
 

@@ -63,8 +63,8 @@ SwitchedRun run_switched(const Trial& trial, const WorldSetup& setup) {
     if (now.law != old.law || now.parameters != old.parameters) {
       const double after = world->energies().elastic;
       const auto x = world->positions();
-      const double laws = energy_of(mesh, all, now, x, still) - energy_of(mesh, all, old, x, still);
-      worst = std::max(worst, std::abs(after - before - laws) / std::max(after, before));
+      const double change = energy_of(mesh, all, now, x, still) - energy_of(mesh, all, old, x, still);
+      worst = std::max(worst, std::abs(after - before - change) / std::max(after, before));
       jumps = jumps || world->state_hash() != hash;
       after_switch = total(synchronous_energies(*world));
       ++switches;
