@@ -116,13 +116,13 @@ HEML_WIDE bool energy_forces(const L& law, const ElementGroup<Real>& group, cons
 template <class Real, class L>
 HEML_WIDE void energy_stiffness(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                                 std::size_t end, Real* K, bool add) {
-  group_stiffness<EnergyPack<Real>>(law, group, x, begin, end, K, add);
+  group_stiffness<EnergyPack<Real>, L>(PackedLaw<EnergyPack<Real>, L>(law), group, x, begin, end, K, add);
 }
 
 template <class Real, class L>
 HEML_WIDE void energy_energies(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                                std::size_t end, double* of_packet, bool add) {
-  group_energy<EnergyPack<Real>>(law, group, x, begin, end, of_packet, add);
+  group_energy<EnergyPack<Real>, L>(PackedLaw<EnergyPack<Real>, L>(law), group, x, begin, end, of_packet, add);
 }
 
 template <class Real, class L>

@@ -1,14 +1,15 @@
 #pragma once
 // Loops over a group of elements, written once for every law and scalar. The law is a template argument, so a loop
-// computes only what its law uses.
+// computes only what its law uses. P: a pack of lanes; law: PackedLaw<P, L>.
 #include <algorithm>
 #include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/four.hpp>
+#include <heml/elastic/law_source.hpp>
 #include <heml/elastic/step_bound.hpp>
 #include <heml/elastic/tension.hpp>
 #include <heml/materials/law.hpp>
-#include <heml/materials/law_packs.hpp>
+#include <limits>
 
 namespace heml {
 
@@ -98,31 +99,6 @@ template <class Real, std::size_t lanes>
     }
 }
 
-/// Corner forces of packets [begin, end) into corner (3 reals a corner), overwritten or added to. Returns whether the
-/// law is defined in all of them.
-template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline bool group_forces(const L& law, const ElementGroup<Real>& group, const Real* x,
-                                                std::size_t begin, std::size_t end, Real* corner, bool add) {
-  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
-  bool valid = true;
-  for (std::size_t p = begin; p < end; ++p) {
-    const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
-    Real out[12][lanes], defined[lanes];
-#pragma GCC ivdep
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const Corners<Real> at(packet.x, l);
-      Real f[12];
-      const bool is_defined = corner_forces(law, at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l), f);
-      defined[l] = is_defined ? Real(1) : Real(0);
-      for (int i = 0; i < 12; ++i) out[i][l] = f[i];
-    }
-    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
-    if constexpr (!L::always_valid)
-      for (std::size_t l = 0; l < lanes; ++l) valid = valid && defined[l] == 1;
-  }
-  return valid;
-}
-
 /// As many lanes of a packet as fit one register, as packs: the law is evaluated on all of them at once.
 template <class P, bool with_fibre>
 struct PackedElements {
@@ -142,15 +118,36 @@ struct PackedElements {
   }
 };
 
-/// Stiffness of packets [begin, end) at x into K (elastic/edge_stiffness.hpp), overwritten or added to. P: a pack of
-/// lanes.
+/// Corner forces of packets [begin, end) into corner (3 reals a corner), overwritten or added to. Returns whether the
+/// law is defined in all of them.
 template <class P, class L>
-[[gnu::always_inline]] inline void group_stiffness(const L& law, const ElementGroup<Lane<P>>& group, const Lane<P>* x,
-                                                   std::size_t begin, std::size_t end, Lane<P>* K, bool add) {
+[[gnu::always_inline]] inline bool group_forces(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
+                                                const Lane<P>* x, std::size_t begin, std::size_t end, Lane<P>* corner,
+                                                bool add) {
   using Real = Lane<P>;
-  using Many = typename ReboundLaw<L, P>::Law;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
-  const Many many = broadcast<Many, P>(law);
+  Mask<P> valid = true;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
+    Real out[12][lanes];
+    for (std::size_t first = 0; first < lanes; first += width) {
+      const PackedElements<P, L::uses_I4> at(packet, first);
+      P f[12];
+      valid = valid && corner_forces(law.at(p * lanes + first), at.x[0], at.x[1], at.x[2], at.x[3], at.rest, f);
+      for (std::size_t i = 0; i < 12; ++i) __builtin_memcpy(out[i] + first, &f[i].v, sizeof f[i].v);
+    }
+    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
+  }
+  return L::always_valid || valid.all();
+}
+
+/// Stiffness of packets [begin, end) at x into K (elastic/edge_stiffness.hpp), overwritten or added to.
+template <class P, class L>
+[[gnu::always_inline]] inline void group_stiffness(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
+                                                   const Lane<P>* x, std::size_t begin, std::size_t end, Lane<P>* K,
+                                                   bool add) {
+  using Real = Lane<P>;
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     for (std::size_t first = 0; first < lanes; first += width) {
@@ -158,7 +155,7 @@ template <class P, class L>
       const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
       P k[edge_entries];
       for (P& entry : k) entry = P(0);
-      add_edge_stiffness<P>(many, kinematics, at.rest, k);
+      add_edge_stiffness<P>(law.at(p * lanes + first), kinematics, at.rest, k);
       Real* to = K + edge_entries * lanes * p + first;
       for (std::size_t i = 0; i < edge_entries; ++i) {
         typename P::Vector before;
@@ -172,19 +169,18 @@ template <class P, class L>
 
 /// Energy of the law in each of packets [begin, end), J, summed in double into of_packet, overwritten or added to.
 template <class P, class L>
-[[gnu::always_inline]] inline void group_energy(const L& law, const ElementGroup<Lane<P>>& group, const Lane<P>* x,
-                                                std::size_t begin, std::size_t end, double* of_packet, bool add) {
+[[gnu::always_inline]] inline void group_energy(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
+                                                const Lane<P>* x, std::size_t begin, std::size_t end, double* of_packet,
+                                                bool add) {
   using Real = Lane<P>;
-  using Many = typename ReboundLaw<L, P>::Law;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
-  const Many many = broadcast<Many, P>(law);
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     Real density[lanes];
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
       const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
-      const P W = law_energy<P>(many, kinematics, at.rest);
+      const P W = law_energy<P>(law.at(p * lanes + first), kinematics, at.rest);
       __builtin_memcpy(density + first, &W.v, sizeof W.v);
     }
     double sum = add ? of_packet[p] : 0.0;
@@ -192,6 +188,55 @@ template <class P, class L>
     for (std::size_t l = 0; l < used; ++l)
       sum += static_cast<double>(packet.volume[l]) * static_cast<double>(density[l]);
     of_packet[p] = sum;
+  }
+}
+
+/// T and wJ of a slot, as lists of lanes.
+inline constexpr std::size_t tension_entries = 7;
+
+/// Tensions of packets [begin, end): [packet][T, wJ][lanes].
+template <class P, class L>
+[[gnu::always_inline]] inline void group_tensions(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
+                                                  const Lane<P>* x, std::size_t begin, std::size_t end,
+                                                  Lane<P>* of_packets) {
+  constexpr std::size_t lanes = ElementGroup<Lane<P>>::lanes, width = P::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Lane<P>, L::uses_I4> packet(group, x, p * lanes);
+    for (std::size_t first = 0; first < lanes; first += width) {
+      const PackedElements<P, L::uses_I4> at(packet, first);
+      const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      const Tensions<P> t = tensions(law.at(p * lanes + first), kinematics, at.rest);
+      Lane<P>* to = of_packets + tension_entries * lanes * (p - begin) + first;
+      for (std::size_t i = 0; i < 6; ++i) __builtin_memcpy(to + lanes * i, &t.T[i].v, sizeof t.T[i].v);
+      __builtin_memcpy(to + lanes * 6, &t.wJ.v, sizeof t.wJ.v);
+    }
+  }
+}
+
+/// Upper bounds of the von Mises Kirchhoff stress of a law of invariants in packets [begin, end), Pa, without its part
+/// of fibres: τ' = a B − b B² but for its trace, whose powers have traces that follow from I1, I2 and J
+/// (Cayley-Hamilton). They cancel in bodies near rest, so what rounding may take away is added.
+template <class P, class L>
+[[gnu::always_inline]] inline void group_mises_bounds(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
+                                                      const Lane<P>* x, std::size_t begin, std::size_t end,
+                                                      Lane<P>* bounds) {
+  using Real = Lane<P>;
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
+  constexpr Real rounding = 64 * std::numeric_limits<Real>::epsilon();
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    for (std::size_t first = 0; first < lanes; first += width) {
+      const PackedElements<P, false> e(packet, first);
+      const auto of_element = element_kinematics<true, true, false, false>(e.x[0], e.x[1], e.x[2], e.x[3], e.rest).at;
+      const P I1 = of_element.I1, I2 = of_element.I2, J = of_element.J;
+      const FirstDerivatives<P> w = law.at(p * lanes + first).first_derivatives({I1, I2, J});
+      const P a = 2 * (w.w1 + w.w2 * I1), b = 2 * w.w2;
+      const P B2 = I1 * I1 - 2 * I2, B3 = I1 * B2 - I2 * I1 + 3 * J * J, B4 = I1 * B3 - I2 * B2 + J * J * I1;
+      const P trace = a * I1 - b * B2, square = a * a * B2 - 2 * a * b * B3 + b * b * B4;
+      const P size = 2 * (a * a + b * b * I1 * I1) * I1 * I1;  // no term is larger
+      const P bound = sqrt(P(1.5) * (square - trace * trace / 3 + rounding * size));
+      __builtin_memcpy(bounds + (p - begin) * lanes + first, &bound.v, sizeof bound.v);
+    }
   }
 }
 

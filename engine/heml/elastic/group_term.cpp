@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <heml/elastic/term_parts.hpp>
 #include <heml/elastic/viscoelastic_term.hpp>
+#include <limits>
 
 namespace heml {
 
@@ -61,6 +63,25 @@ void GroupTerm<Real>::energies(const Group& group, const Real* x, std::size_t be
     }
     of_packet[p] = sum;
   }
+}
+
+template <class Real>
+void GroupTerm<Real>::packet_tensions(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                      Real* of_packets) const {
+  for (std::size_t p = begin; p < end; ++p)
+    for (std::size_t l = 0; l < Group::lanes; ++l) {
+      const std::size_t s = p * Group::lanes + l;
+      const auto rest = rest_shape(group, s);
+      const Tensions<Real> t = tensions(group, s, full_kinematics(group, x, s, rest), rest);
+      Real* of_slot = of_packets + tension_entries * Group::lanes * (p - begin) + l;
+      for (std::size_t i = 0; i < 6; ++i) of_slot[Group::lanes * i] = t.T[i];
+      of_slot[Group::lanes * 6] = t.wJ;
+    }
+}
+
+template <class Real>
+void GroupTerm<Real>::mises_bounds(const Group&, const Real*, std::size_t begin, std::size_t end, Real* bounds) const {
+  std::fill_n(bounds, (end - begin) * Group::lanes, std::numeric_limits<Real>::infinity());
 }
 
 template <class Real>

@@ -59,6 +59,12 @@ class GroupTerm {
                         bool add) const;
   /// Largest slot_frequency_bound().
   virtual Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const;
+  /// Writes tensions() of the slots into of_packets: [packet][T, wJ][lanes], 7 lists a packet.
+  virtual void packet_tensions(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                               Real* of_packets) const;
+  /// Writes an upper bound of the von Mises stress of deviatoric_stress() for each slot, Pa (8 a packet): close to it,
+  /// or infinite where only deviatoric_stress() tells.
+  virtual void mises_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
   /// Upper bound of λ_max(M_t⁻¹D_t), 1/s, D the damping matrix of the term.
   virtual Real damping_bound(const Group&, const Real*, std::size_t, std::size_t) const { return 0; }
 

@@ -1,6 +1,8 @@
 #pragma once
-// The law of one slot: uniform, or with parameters that vary by element.
+// The law of one slot, or of several in the lanes of a pack: uniform, or with parameters that vary by element.
+#include <cstring>
 #include <heml/elastic/element_group.hpp>
+#include <heml/materials/law_packs.hpp>
 #include <heml/materials/laws.hpp>
 
 namespace heml {
@@ -22,9 +24,49 @@ class LawSource {
     return law;
   }
 
+  /// Sets the parameters that vary to those of the slots from s on, one a lane. law: broadcast from uniform_law().
+  template <class P, class Law>
+  [[gnu::always_inline]] inline void read_varying(const ElementGroup<Real>& group, std::size_t s, Law& law) const {
+    constexpr auto parameters = std::make_index_sequence<std::size(L::parameters)>{};
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      if (members_[k]) read_parameter<P>(members_[k], group.parameters[k].data() + s, law, parameters);
+  }
+
  private:
+  template <class P, class Law, std::size_t... i>
+  [[gnu::always_inline]] static void read_parameter(Real L::*member, const Real* values, Law& law,
+                                                    std::index_sequence<i...>) {
+    [[maybe_unused]] const auto read = [&](Real L::*of_number, P Law::*of_pack) {
+      if (of_number == member) std::memcpy(&(law.*of_pack).v, values, sizeof(P));
+    };
+    (read(L::parameters[i].member, Law::parameters[i].member), ...);
+  }
+
   L law_;
   std::vector<Real L::*> members_;
+};
+
+/// The law of the slots in the lanes of a pack P.
+template <class P, class L>
+class PackedLaw {
+ public:
+  using Law = typename ReboundLaw<L, P>::Law;
+  using Source = LawSource<Lane<P>, L>;
+
+  [[gnu::always_inline]] explicit PackedLaw(const L& uniform) : law_(broadcast<Law, P>(uniform)) {}
+  [[gnu::always_inline]] PackedLaw(const Source& source, const ElementGroup<Lane<P>>& group)
+      : law_(broadcast<Law, P>(source.uniform_law())), source_(source.uniform() ? nullptr : &source), group_(&group) {}
+
+  /// Of the slots from s on, until the next call.
+  [[gnu::always_inline]] inline const Law& at(std::size_t s) {
+    if (source_) source_->template read_varying<P>(*group_, s, law_);
+    return law_;
+  }
+
+ private:
+  Law law_;
+  const Source* source_ = nullptr;  ///< null: uniform
+  const ElementGroup<Lane<P>>* group_ = nullptr;
 };
 
 }  // namespace heml

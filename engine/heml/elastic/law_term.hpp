@@ -13,19 +13,29 @@ template <class Real>
 using WidePack = Pack<Real, static_cast<int>(32 / sizeof(Real)), WideFamily>;
 
 template <class Real, class L>
-HEML_WIDE bool wide_forces(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                           std::size_t end, Real* corner, bool add) {
-  return group_forces<Real>(law, group, x, begin, end, corner, add);
+HEML_WIDE bool wide_forces(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
+                           std::size_t begin, std::size_t end, Real* corner, bool add) {
+  return group_forces<WidePack<Real>, L>({law, group}, group, x, begin, end, corner, add);
 }
 template <class Real, class L>
-HEML_WIDE void wide_stiffness(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                              std::size_t end, Real* K, bool add) {
-  group_stiffness<WidePack<Real>>(law, group, x, begin, end, K, add);
+HEML_WIDE void wide_stiffness(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
+                              std::size_t begin, std::size_t end, Real* K, bool add) {
+  group_stiffness<WidePack<Real>, L>({law, group}, group, x, begin, end, K, add);
 }
 template <class Real, class L>
-HEML_WIDE void wide_energy(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                           std::size_t end, double* of_packet, bool add) {
-  group_energy<WidePack<Real>>(law, group, x, begin, end, of_packet, add);
+HEML_WIDE void wide_energy(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
+                           std::size_t begin, std::size_t end, double* of_packet, bool add) {
+  group_energy<WidePack<Real>, L>({law, group}, group, x, begin, end, of_packet, add);
+}
+template <class Real, class L>
+HEML_WIDE void wide_tensions(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
+                             std::size_t begin, std::size_t end, Real* of_packets) {
+  group_tensions<WidePack<Real>, L>({law, group}, group, x, begin, end, of_packets);
+}
+template <class Real, class L>
+HEML_WIDE void wide_mises_bounds(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
+                                 std::size_t begin, std::size_t end, Real* bounds) {
+  group_mises_bounds<WidePack<Real>, L>({law, group}, group, x, begin, end, bounds);
 }
 template <class Real, class L>
 HEML_WIDE Real wide_frequency_bound(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
@@ -82,13 +92,13 @@ class LawTerm final : public GroupTerm<Real> {
 
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
               bool add) const override {
-    if (!is_vectorised()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
-    return wide_forces<Real>(source_.uniform_law(), group, x, begin, end, corner, add);
+    if (!has_avx2()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
+    return wide_forces(source_, group, x, begin, end, corner, add);
   }
 
   void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
                  bool add) const override {
-    if (is_vectorised()) return wide_stiffness<Real>(source_.uniform_law(), group, x, begin, end, K, add);
+    if (has_avx2()) return wide_stiffness(source_, group, x, begin, end, K, add);
     for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
       const auto rest = rest_shape(group, s);
       Real k[edge_entries] = {};
@@ -99,18 +109,29 @@ class LawTerm final : public GroupTerm<Real> {
 
   void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
                 bool add) const override {
-    if (!is_vectorised()) return GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
-    wide_energy<Real>(source_.uniform_law(), group, x, begin, end, of_packet, add);
+    if (!has_avx2()) return GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
+    wide_energy(source_, group, x, begin, end, of_packet, add);
+  }
+
+  void packet_tensions(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                       Real* of_packets) const override {
+    if (!has_avx2()) return GroupTerm<Real>::packet_tensions(group, x, begin, end, of_packets);
+    wide_tensions(source_, group, x, begin, end, of_packets);
+  }
+
+  void mises_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                    Real* bounds) const override {
+    if constexpr (InvariantLaw<L, Real>)
+      if (has_avx2()) return wide_mises_bounds(source_, group, x, begin, end, bounds);
+    GroupTerm<Real>::mises_bounds(group, x, begin, end, bounds);
   }
 
   Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override {
-    if (!is_vectorised()) return GroupTerm<Real>::frequency_bound(group, x, begin, end);
+    if (!source_.uniform() || !has_avx2()) return GroupTerm<Real>::frequency_bound(group, x, begin, end);
     return wide_frequency_bound<Real>(source_.uniform_law(), group, x, begin, end);
   }
 
  private:
-  bool is_vectorised() const { return source_.uniform() && has_avx2(); }
-
   LawSource<Real, L> source_;
 };
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double min_J = 0.05;                    // no flow below this J, where the logarithmic strain is meaningless
 constexpr double equivalent = 0.816496580927726;  // √(2/3)
+constexpr double surely_below = 0.999;  // of the yield stress: bounds of the stress are less exact than stresses
 
 template <class Real>
 Real mises(const Real tau[3]) {
@@ -65,7 +66,10 @@ PlasticFlow<Real>::PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plast
 template <class Real>
 double PlasticFlow<Real>::flow(Group& group, const Real* x) {
   double work = 0;
+  stress_bounds_.resize(group.volume.size());
+  law_->mises_bounds(group, x, 0, group.packets(), stress_bounds_.data());
   for (std::size_t s = 0; s < group.volume.size(); ++s) {
+    if (stress_bounds_[s] < Real(surely_below) * (yield_ + hardening_ * strain_[s])) continue;
     const double of_slot = return_map(group, x, s);
     if (s < group.size()) work += of_slot;  // padding does not count
   }

@@ -35,7 +35,7 @@ class PlasticFlow {
                       const std::vector<SubelementMap<Real>>& subelement_maps, Group& group);
   /// The lists of internal state: the plastic strain, and A and gamma of the group.
   SlotStates<Real> slot_states(Group& group);
-  std::size_t bytes() const { return bytes_of(rest_A_, rest_gamma_, strain_); }
+  std::size_t bytes() const { return bytes_of(rest_A_, rest_gamma_, strain_, stress_bounds_); }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 
  private:
@@ -45,6 +45,7 @@ class PlasticFlow {
   Real yield_, hardening_;
   std::array<std::vector<Real>, 6> rest_A_;
   std::vector<Real> rest_gamma_, strain_;
+  std::vector<Real> stress_bounds_;  ///< scratch of flow()
 };
 
 /// The plastic flow of a material's elements; null without plasticity.

@@ -341,8 +341,8 @@ template <bool with_J, class Real>
 
 /// Corner forces of one element. Returns whether the law is defined there.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline bool corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2,
-                                                 const Real* x3, const RestShape<Real>& rest, Real out[12]) {
+[[gnu::always_inline]] inline Mask<Real> corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2,
+                                                       const Real* x3, const RestShape<Real>& rest, Real out[12]) {
   const ElementKinematics<Real> kinematics =
       element_kinematics<L::uses_I2, L::uses_J, L::uses_I4, FibreShearLaw<L>>(x0, x1, x2, x3, rest);
   forces_from_tensions<L::uses_J>(tensions(law, kinematics, rest), kinematics.e, kinematics.cross, out);

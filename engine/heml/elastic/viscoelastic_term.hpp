@@ -19,6 +19,9 @@
 
 namespace heml {
 
+template <class Real>
+struct MemoryOf;
+
 /// A branch of relaxation in a step of h seconds.
 template <class Real>
 FanBranch<Real> branch_during(Real gamma, Real tau, Real h);
@@ -64,8 +67,8 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
  private:
   struct Branch {
     Real gamma, tau;
-    FanBranch<Real> step;
   };
+  MemoryOf<Real> memory() const;
   Tensions<Real> fixed_tensions(std::size_t s) const;
   Real slot_state_bound(const Group& group, std::size_t s) const;
   void add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const;
@@ -76,6 +79,7 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   std::unique_ptr<GroupTerm<Real>> law_;
   Real eta_, zeta_;  ///< Pa s
   std::vector<Branch> branches_;
+  std::vector<FanBranch<Real>> steps_;  ///< of branches_, during the step
   Real total_gamma_ = 0;
   Real per_step_ = 0;        ///< 1/h
   Real weight_ = 0;          ///< Σ gain

@@ -1,0 +1,206 @@
+#pragma once
+// The loops of viscosity and relaxation over a group of elements (elastic/viscoelastic_term.hpp). They give the bits of
+// the functions of one slot.
+#include <algorithm>
+#include <cmath>
+#include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/elastic/fan_terms.hpp>
+#include <heml/elastic/group_term.hpp>
+#include <span>
+
+namespace heml {
+
+/// Adds the viscous tensions V (η A dG A + ζ/2 (A:dG) A) / h.
+template <class Real>
+[[gnu::always_inline]] inline void add_viscous_tensions(const Real dG[6], const RestShape<Real>& rest, Real eta,
+                                                        Real zeta, Real per_step, Real T[6]) {
+  const Real* A = rest.A;
+  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+  Real AdGA[6];
+  congruence3(a, dG, AdGA);
+  const Real bulk = zeta / 2 * double_contraction3(A, dG), scale = rest.volume * per_step;
+  for (int i = 0; i < 6; ++i) T[i] += scale * (eta * AdGA[i] + bulk * A[i]);
+}
+
+/// A term's parameters and state during a step. law: packet_tensions() of the isochoric law in the packets that are
+/// evaluated; null without branches, of which there are then none.
+template <class Real>
+struct MemoryOf {
+  Real eta, zeta, per_step, weight;
+  std::size_t stride;
+  std::span<const FanBranch<Real>> branches;
+  const Real* law = nullptr;
+};
+
+/// T and wJ of the law in one lane.
+template <class Real>
+[[gnu::always_inline]] inline Real law_entry(const Real* law, std::size_t packet, std::size_t i, std::size_t l) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  return law[lanes * (tension_entries * packet + i) + l];
+}
+
+/// Adds the tensions that are constant during a step: Σ_branches (decay Q − gain T_iso) of a slot's committed state.
+template <class Real>
+[[gnu::always_inline]] inline void add_fixed_tensions(std::span<const FanBranch<Real>> branches, const Real* of_slot,
+                                                      Real T[6]) {
+  for (std::size_t b = 0; b < branches.size(); ++b)
+    for (std::size_t i = 0; i < 6; ++i)
+      T[i] += branches[b].decay * of_slot[12 + 6 * b + i] - branches[b].gain * of_slot[6 + i];
+}
+
+/// In the order of ViscoelasticTerm::tensions(), so that both give the same bits.
+template <bool relaxes, class Real>
+[[gnu::always_inline]] inline void memory_forces(const MemoryOf<Real>& of, const ElementGroup<Real>& group,
+                                                 const Real* x, const Real* state, std::size_t begin, std::size_t end,
+                                                 Real* corner, bool add) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real before[6][lanes], fixed[6][lanes], law[tension_entries][lanes], out[12][lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Real* of_slot = state + of.stride * (p * lanes + l);
+      for (std::size_t i = 0; i < 6; ++i) before[i][l] = of_slot[i];
+      Real sum[6] = {};
+      if constexpr (relaxes) add_fixed_tensions(of.branches, of_slot, sum);
+      for (std::size_t i = 0; relaxes && i < 6; ++i) fixed[i][l] = sum[i];
+      for (std::size_t i = 0; relaxes && i < tension_entries; ++i) law[i][l] = law_entry(of.law, p - begin, i, l);
+    }
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto kinematics =
+          element_kinematics<false, relaxes, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      Real dG[6], f[12];
+      Tensions<Real> t{};
+      for (std::size_t i = 0; i < 6; ++i) {
+        dG[i] = kinematics.G[i] - before[i][l];
+        if constexpr (relaxes) t.T[i] = fixed[i][l] + of.weight * law[i][l];
+      }
+      if constexpr (relaxes) t.wJ = of.weight * law[6][l];
+      add_viscous_tensions(dG, rest, of.eta, of.zeta, of.per_step, t.T);
+      forces_from_tensions<relaxes>(t, kinematics.e, kinematics.cross, f);
+      for (int i = 0; i < 12; ++i) out[i][l] = f[i];
+    }
+    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
+  }
+}
+
+template <class Real>
+HEML_WIDE void wide_memory_forces(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                                  const Real* state, std::size_t begin, std::size_t end, Real* corner, bool add) {
+  if (of.law)
+    memory_forces<true>(of, group, x, state, begin, end, corner, add);
+  else
+    memory_forces<false>(of, group, x, state, begin, end, corner, add);
+}
+
+/// Tensions with the law's wJ expressed as tensions, wJ (cross_a·cross_b) / (36 V J). J is taken as at least 0.05, so
+/// that crushed elements keep finite values.
+template <class Real>
+[[gnu::always_inline]] inline void put_total_tensions(const Tensions<Real>& law,
+                                                      const ElementKinematics<Real>& kinematics, Real volume,
+                                                      Real T[6]) {
+  const Real scale = law.wJ / (36 * volume * std::max(kinematics.at.J, Real(0.05)));
+  constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
+  for (int k = 0; k < 6; ++k) {
+    const Real *p = kinematics.cross[row[k]], *q = kinematics.cross[col[k]];
+    T[k] = law.T[k] + scale * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
+  }
+}
+
+/// The total tensions T of a slot replace those before; the branches follow their change.
+template <class Real>
+[[gnu::always_inline]] inline void store_tensions(std::span<const FanBranch<Real>> branches, const Real T[6],
+                                                  Real* of_slot) {
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    Real* Q = of_slot + 12 + 6 * b;
+    for (std::size_t i = 0; i < 6; ++i) Q[i] = branches[b].decay * Q[i] + branches[b].gain * (T[i] - of_slot[6 + i]);
+  }
+  std::copy_n(T, 6, of_slot + 6);
+}
+
+/// Stores what the next step starts from: Gram matrices at x, and of the branches their tensions.
+template <bool relaxes, class Real>
+[[gnu::always_inline]] inline void store_memory(const MemoryOf<Real>& of, const ElementGroup<Real>& group,
+                                                const Real* x, std::size_t begin, std::size_t end, Real* state) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real G[6][lanes], T[6][lanes] = {};
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const auto kinematics =
+          element_kinematics<false, relaxes, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+      for (int i = 0; i < 6; ++i) G[i][l] = kinematics.G[i];
+      if constexpr (relaxes) {
+        Tensions<Real> law;
+        Real total[6];
+        for (std::size_t i = 0; i < 6; ++i) law.T[i] = law_entry(of.law, p - begin, i, l);
+        law.wJ = law_entry(of.law, p - begin, 6, l);
+        put_total_tensions(law, kinematics, packet.volume[l], total);
+        for (int i = 0; i < 6; ++i) T[i][l] = total[i];
+      }
+    }
+    for (std::size_t l = 0; l < lanes; ++l) {
+      Real* of_slot = state + of.stride * (p * lanes + l);
+      Real total[6];
+      for (std::size_t i = 0; i < 6; ++i) of_slot[i] = G[i][l], total[i] = T[i][l];
+      if constexpr (relaxes) store_tensions(of.branches, total, of_slot);
+    }
+  }
+}
+
+template <class Real>
+HEML_WIDE void wide_store_memory(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                                 std::size_t begin, std::size_t end, Real* state) {
+  if (of.law)
+    store_memory<true>(of, group, x, begin, end, state);
+  else
+    store_memory<false>(of, group, x, begin, end, state);
+}
+
+/// Calls work(begin, end, tensions of the law there) for runs of packets whose tensions stay in the cache.
+template <class Real, class Work>
+void each_run_with_law(const GroupTerm<Real>& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                       std::size_t end, const Work& work) {
+  constexpr std::size_t run = 8, lanes = ElementGroup<Real>::lanes;
+  Real of_packets[run * tension_entries * lanes];
+  for (std::size_t p = begin; p < end; p += run) {
+    const std::size_t last = std::min(p + run, end);
+    law.packet_tensions(group, x, p, last, of_packets);
+    work(p, last, of_packets);
+  }
+}
+
+/// Largest bound of the damping of packets [begin, end), 1/s: uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
+template <class Real>
+[[gnu::always_inline]] inline Real viscous_bound(const MemoryOf<Real>& of, const ElementGroup<Real>& group,
+                                                 const Real* x, std::size_t begin, std::size_t end) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  Real largest = 0;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real bound[lanes];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto kinematics = element_kinematics<true, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      bound[l] = 4 / group.density *
+                 (2 * of.eta * stretch_bounds(kinematics.at).max * group.gamma[p * lanes + l] +
+                  of.zeta / 4 * corner_sums(kinematics, rest).n1);
+    }
+    for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
+  }
+  return largest;
+}
+
+template <class Real>
+HEML_WIDE Real wide_viscous_bound(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                                  std::size_t begin, std::size_t end) {
+  return viscous_bound(of, group, x, begin, end);
+}
+
+}  // namespace heml
