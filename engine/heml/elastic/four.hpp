@@ -2,6 +2,9 @@
 // Four numbers in a register, for loops that read and write vectors of three coordinates.
 #include <cstring>
 
+// Clang warns at every call that such a value is returned in another way with AVX; all these calls are inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace heml {
 
 template <class Real>
