@@ -14,8 +14,8 @@ studies=OFF  # and laws, under sanitizers: many minutes
 # What a preset leaves out but for --long: under sanitizers, cases that take minutes there and repeat others for every
 # law, command or size; of the engine alone, what does not change without the program and the helpers for surfaces.
 declare -A selection=(
-  [address]='-E ^world:.?(snapshot:.(every|quadratic)|step.rescue:.blocks|undo:.(the.same|restores)|history:.every|two.hundred|a.thousand|self-contact:.two.boxes|quadratic.contact:.(a.stack|boxes)|recovery:.of.every.element|capstan|vibration)|^scenario:.?a.recording.of.every.element|^mesh:.?cut:.a.stroke'
-  [smallest]='-R ^(assets|base|floors|install|mesh|scenario|session):'
+  [address]='-E ^world:.?(snapshot:.(every|quadratic)|step.rescue:.blocks|undo:.(the.same|restores|what.is)|history:.every|two.hundred|a.thousand|self-contact:.(two.boxes|at.1)|quadratic.contact:.(a.stack|boxes|a.cut|at.1|the.same)|recovery:.of.every|cautery:.a.free|capstan|vibration)|^scenario:.?(a.recording.of.every.element|a.surface.is.filled|a.tissue.that.is.given|the.wanted.number|the.estimate.is)|^mesh:.?(cut:.a.stroke|burn:.a.long)|^mend:.?(meshing.anew.keeps|what.has.no.volume)'
+  [smallest]='-R ^(assets|base|floors|install|mesh|scenario|session): -E ^scenario:.?a.recording.of.every.element'
 )
 case "${1:-}" in
   '') ;;

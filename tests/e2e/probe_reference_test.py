@@ -178,11 +178,11 @@ WORST = {}  # largest errors by law, relative to the value plus one per cent of 
 def law_test(law):
     def test(self):
         r = random.Random("probe of " + law)
-        for material in materials(law, r):
+        for k, material in enumerate(materials(law, r)):
             m = numbers(material)
             rows = [(name, F) for name, F in states(r) if LAWS[law].in_range(m, [mpf(f) for f in F])]
             self.assertGreater(len(rows), 70)
-            self.compare(material, rows, r)
+            self.compare(material, rows[::1 if k == 0 else 3], r)  # seconds a material, all states
     return test
 
 
