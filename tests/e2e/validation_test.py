@@ -50,7 +50,7 @@ class Validation(unittest.TestCase):
     def test_the_page_stands_alone(self):
         page = (self.out / "report.html").read_text()
         self.assertIn("</html>", page)
-        self.assertEqual(page.count("data:image/png;base64"), 11)
+        self.assertEqual(page.count("data:image/png;base64"), 12)
         self.assertNotIn("<link", page)
 
     def test_a_second_run_takes_up_the_first(self):

@@ -56,11 +56,6 @@ double ActiveTerm<Real>::energy(const Group&, std::size_t, const ElementKinemati
 }
 
 template <class Real>
-void ActiveTerm<Real>::deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const {
-  std::fill_n(tau, 3, Real(0));
-}
-
-template <class Real>
 bool ActiveTerm<Real>::forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
                               bool add) const {
   if (has_avx2())

@@ -33,7 +33,6 @@ class ActiveTerm final : public GroupTerm<Real> {
                 const RestShape<Real>& rest) const override;
   bool valid(const Group&, std::size_t, const ElementKinematics<Real>&) const override { return true; }
   /// Zero: materials that flow have no active stress.
-  void deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const override;
   SlotStates<Real> slot_states() override { return {}; }
 
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,

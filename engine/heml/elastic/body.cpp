@@ -92,6 +92,8 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   if (part.group->density != density) part.group.write().density = density;
   for (const auto& term : part.terms) term->begin_step(step_);
   part.flow = make_flow<Real>(material, options_.continuation, *part.group);
+  part.flows_within_steps =
+      part.flow && material.viscosity == 0 && material.bulk_viscosity == 0 && material.relaxation.empty();
   part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && !layout_->virtual_corners &&
                  has_fan_kernel(material);
   if (part.in_fans)

@@ -222,6 +222,12 @@ class ElasticBody {
   InternalState<Real> internal_state();
   /// Goes back to a state of this body with its present elements and materials (sizes asserted), to round-off.
   void set_internal_state(const InternalState<Real>& state);
+  /// Until end_flow_trial() rest shapes are those that plastic flow to x gives (plastic_flow.hpp), for forces(),
+  /// potential() and linearise() at x. Not of materials with viscosity or relaxation too, which flow after steps alone:
+  /// without others flows_within_steps() is false, and a trial changes nothing.
+  bool flows_within_steps() const;
+  void begin_flow_trial(const Real* x, ThreadTeam& team);
+  void end_flow_trial();
   double plastic_work() const { return plastic_work_; }  ///< J, of all elements since the last reset_history()
 
   /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume as meshed / 4 on its nodes; of
@@ -246,6 +252,8 @@ class ElasticBody {
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
     bool in_fans;                                      ///< fans_ evaluates the forces of all passive terms
     ActiveTerm<Real>* active = nullptr;                ///< the last of the terms, or null
+
+    bool flows_within_steps = false;  ///< of implicit methods; else after them
 
     Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
     std::size_t first_loop() const { return in_fans ? terms.size() - (active ? 1 : 0) : 0; }  ///< of forces()
@@ -360,6 +368,24 @@ class ElasticBody {
   double activation_ = 1;
   /// Whether the state by slot of the parts in fans is older than that of fans_; update_slots() copies it.
   mutable bool slots_are_old_ = false;
+};
+
+/// Lasts as long as a trial of plastic flow to x, or is none.
+template <class Real>
+class FlowTrial {
+ public:
+  FlowTrial(ElasticBody<Real>& body, const Real* x, ThreadTeam& team, bool is_none = false)
+      : body_(is_none ? nullptr : &body) {
+    if (body_) body_->begin_flow_trial(x, team);
+  }
+  ~FlowTrial() {
+    if (body_) body_->end_flow_trial();
+  }
+  FlowTrial(const FlowTrial&) = delete;
+  FlowTrial& operator=(const FlowTrial&) = delete;
+
+ private:
+  ElasticBody<Real>* body_;
 };
 
 }  // namespace heml

@@ -67,6 +67,30 @@ void ElasticBody<Real>::commit(const Real* x) {
 }
 
 template <class Real>
+bool ElasticBody<Real>::flows_within_steps() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.flows_within_steps; });
+}
+
+template <class Real>
+void ElasticBody<Real>::begin_flow_trial(const Real* x, ThreadTeam& team) {
+  if (!flows_within_steps()) return;
+  x = inner_positions(x, team);
+  for (Part& part : parts_) {
+    if (!part.flows_within_steps) continue;
+    auto& group = part.group.write();
+    if (part.flow->begin_trial(group, {x, 3 * layout_->mesh.nodes.size()})) continue;
+    team.parallel_for(group.packets(), grain_ / 4 / group.lanes,
+                      [&](std::size_t begin, std::size_t end) { part.flow->try_flow(group, x, begin, end); });
+  }
+}
+
+template <class Real>
+void ElasticBody<Real>::end_flow_trial() {
+  for (Part& part : parts_)
+    if (part.flows_within_steps) part.flow->end_trial(part.group.write());
+}
+
+template <class Real>
 void ElasticBody<Real>::reset_history(const Real* x) {
   plastic_work_ = 0;
   std::vector<Real> y;
@@ -164,6 +188,12 @@ template void ElasticBody<float>::begin_step(float);
 template void ElasticBody<double>::begin_step(double);
 template void ElasticBody<float>::commit(const float*);
 template void ElasticBody<double>::commit(const double*);
+template bool ElasticBody<float>::flows_within_steps() const;
+template bool ElasticBody<double>::flows_within_steps() const;
+template void ElasticBody<float>::begin_flow_trial(const float*, ThreadTeam&);
+template void ElasticBody<double>::begin_flow_trial(const double*, ThreadTeam&);
+template void ElasticBody<float>::end_flow_trial();
+template void ElasticBody<double>::end_flow_trial();
 template void ElasticBody<float>::Part::reset_history(const float*);
 template void ElasticBody<double>::Part::reset_history(const double*);
 template void ElasticBody<float>::reset_history(const float*);

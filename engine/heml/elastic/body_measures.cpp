@@ -44,6 +44,7 @@ double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& t
     if (stored && part.dilatation)
       part.dilatation->add_energies(*part.group, x, 0, part.group->packets(), packet_energy_.data());
     for (const double of_packet : packet_energy_) sum += of_packet;
+    if (!stored && part.flow) sum += part.flow->trial_potential(*part.group);
   }
   return sum;
 }

@@ -21,6 +21,11 @@ void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
       team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes, [&](std::size_t begin, std::size_t end) {
         part.terms[k]->stiffness(*part.group, x, begin, end, part.stiffness.data(), k > 0);
       });
+    if (part.flows_within_steps)
+      team.parallel_for(part.group->packets(), grain_ / 16 / part.group->lanes,
+                        [&](std::size_t begin, std::size_t end) {
+                          part.flow->add_stiffness(*part.group, x, begin, end, part.stiffness.data());
+                        });
     if (part.dilatation) part.dilatation->resize(*part.group);
   }
   each_dilatation(team, [&](Part& part, std::size_t begin, std::size_t end) {

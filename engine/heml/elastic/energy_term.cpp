@@ -164,11 +164,6 @@ class EnergyTerm final : public GroupTerm<Real> {
     return defined;
   }
 
-  /// Only plasticity asks, which needs a volume term.
-  void deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const override {
-    for (int i = 0; i < 3; ++i) tau[i] = 0;
-  }
-
   SlotStates<Real> slot_states() override { return {}; }
 
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,

@@ -5,6 +5,7 @@
 // A loop over packets is one virtual call. Terms of uniform laws override the loops with the vectorised ones of
 // group_loops.hpp. The default loops call the functions of one slot, which also serve parameters that vary by element
 // and internal state.
+#include <heml/elastic/deviatoric_stress.hpp>
 #include <heml/elastic/group_loops.hpp>
 #include <heml/elastic/slot_state.hpp>
 #include <heml/elastic/subelement_map.hpp>
@@ -44,8 +45,8 @@ class GroupTerm {
   /// Whether energy() is stored elastic energy, not the incremental potential of viscosity and relaxation.
   virtual bool stores() const { return true; }
   virtual bool valid(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics) const = 0;
-  /// Deviatoric principal Kirchhoff stresses at eigenvalues c of C, Pa.
-  virtual void deviatoric_stress(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const = 0;
+  /// At eigenvalues c of C. Only plasticity asks; 0 but for the laws that it is for.
+  virtual DeviatoricStress<Real> deviatoric_stress(const Group&, std::size_t, const Real[3], Real) const { return {}; }
 
   // Packets [begin, end). Threads may call these on disjoint ranges.
   /// See group_forces().

@@ -74,18 +74,8 @@ class LawTerm final : public GroupTerm<Real> {
     return L::always_valid || source_.at(group, s).valid(kinematics.at);
   }
 
-  void deviatoric_stress(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const override {
-    const L law = source_.at(group, s);
-    if constexpr (PrincipalLaw<L, Real>) {
-      const Real p = volume_powers<L::is_continued>(J).p;
-      for (int i = 0; i < 3; ++i) tau[i] = 2 * p * c[i] * law.principal(p * c[i]).h1;
-    } else {
-      const Real I1 = c[0] + c[1] + c[2], I2 = c[0] * c[1] + c[0] * c[2] + c[1] * c[2];
-      const FirstDerivatives<Real> first_derivatives = law.first_derivatives({I1, I2, J});
-      for (int i = 0; i < 3; ++i) tau[i] = 2 * c[i] * (first_derivatives.w1 + first_derivatives.w2 * (I1 - c[i]));
-    }
-    const Real mean = (tau[0] + tau[1] + tau[2]) / 3;
-    for (int i = 0; i < 3; ++i) tau[i] -= mean;
+  DeviatoricStress<Real> deviatoric_stress(const Group& group, std::size_t s, const Real c[3], Real J) const override {
+    return heml::deviatoric_stress(source_.at(group, s), c, J);
   }
 
   SlotStates<Real> slot_states() override { return {}; }

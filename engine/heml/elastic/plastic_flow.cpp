@@ -1,19 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/term_parts.hpp>
+#include <limits>
+#include <utility>
 
 namespace heml {
 namespace {
 
 constexpr double min_J = 0.05;                    // no flow below this J, where the logarithmic strain is meaningless
-constexpr double equivalent = 0.816496580927726;  // √(2/3)
 constexpr double surely_below = 0.999;  // of the yield stress: bounds of the stress are less exact than stresses
-
-template <class Real>
-Real mises(const Real tau[3]) {
-  return std::sqrt(Real(1.5) * (tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2]));
-}
 
 /// Stores A and gamma, the largest eigenvalue of Σ_a g_a g_aᵀ, similar to Lᵀ(I + 1 1ᵀ)L with A = LLᵀ.
 template <class Real>
@@ -27,29 +24,40 @@ void put_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real A[6]) {
   group.gamma[s] = std::max({spread.value[0], spread.value[1], spread.value[2]});
 }
 
-/// A = L N exp(−2 Δγ n) Nᵀ Lᵀ.
+/// Adds the change of stiffness that comes with flow (return_mapping.hpp) in terms of ε_i and of the turning of the
+/// principal axes. With q_i = L N_i and F_i = Σ_b q_ib e_b,
+///     ∂C_ij/∂e_a = q_ia F_j + q_ja F_i,   ∂ε_i/∂e_a = q_ia F_i / c_i,
+/// and the factor of (dC_ij)² is (τ_i − τ_j)/(2 c_i c_j) (coth(ε_i − ε_j) − coth((ε_i − d_i) − (ε_j − d_j))).
 template <class Real>
-void replace_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real factor[3][3],
-                        const SymmetricEigen3<Real>& e, Real gamma, const Real n[3]) {
-  Real shrink[3], R[6], A[6];
-  for (int i = 0; i < 3; ++i) shrink[i] = natural_exp(-2 * gamma * n[i]);
-  spectral_sum3(e, shrink, R);
-  congruence3(factor, R, A);
-  put_rest_shape(group, s, A);
-}
-
-/// Writes the direction n (unit) of the deviatoric logarithmic strain at eigenvalues c of C. Returns its norm.
-template <class Real>
-Real flow_direction(const Real c[3], Real n[3]) {
-  Real mean = 0, length = 0;
+void add_flow_stiffness(const SymmetricEigen3<Real>& e, const Real factor[3][3], const Real edges[3][3], Real volume,
+                        const PlasticReturn<Real>& flow, const FlowStress<Real>& yield, Real K[edge_entries]) {
+  Real q[3][3], F[3][3], strain[3][9], turn[3][9], change[3][3], turning[3][3] = {};
   for (int i = 0; i < 3; ++i) {
-    n[i] = natural_log(c[i]) / 2;
-    mean += n[i] / 3;
+    for (int a = 0; a < 3; ++a)
+      q[i][a] = factor[a][0] * e.vector[i][0] + factor[a][1] * e.vector[i][1] + factor[a][2] * e.vector[i][2];
+    sum_of_edges(q[i], edges, F[i]);
+    for (int a = 0; a < 3; ++a)
+      for (int k = 0; k < 3; ++k) strain[i][3 * a + k] = q[i][a] * F[i][k] / e.value[i];
   }
-  for (int i = 0; i < 3; ++i) length += (n[i] - mean) * (n[i] - mean);
-  length = std::sqrt(length);
-  for (int i = 0; i < 3; ++i) n[i] = (n[i] - mean) / length;
-  return length;
+  flow_tangent(flow, yield, change);
+  add_outer_products(strain, change, volume, K);
+  constexpr int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
+  for (int pair = 0; pair < 3; ++pair) {
+    const int i = row[pair], j = column[pair];
+    for (int a = 0; a < 3; ++a)
+      for (int k = 0; k < 3; ++k) turn[pair][3 * a + k] = q[i][a] * F[j][k] + q[j][a] * F[i][k];
+    const Real flowed = flow.flow[i] - flow.flow[j];
+    const Real apart = (natural_log(e.value[i]) - natural_log(e.value[j])) / 2 - flowed;
+    const Real stress = flow.stress.tau[i] - flow.stress.tau[j];
+    // (τ_i − τ_j) (coth(x + flowed) − coth(x)), whose limit at x = 0 has τ_i − τ_j = slope x and flowed/x of the same.
+    const Real slope = flow.stress.slope[i][i] - flow.stress.slope[i][j];
+    const Real ratio = slope * flow.length / flow.stress.norm();
+    const bool are_same = std::abs(apart) < std::sqrt(std::numeric_limits<Real>::epsilon());
+    const Real difference =
+        are_same ? slope * (1 / (1 + ratio) - 1) : stress * (1 / std::tanh(apart + flowed) - 1 / std::tanh(apart));
+    turning[pair][pair] = difference / (2 * e.value[i] * e.value[j]);
+  }
+  add_outer_products(turn, turning, volume, K);
 }
 
 }  // namespace
@@ -66,14 +74,76 @@ PlasticFlow<Real>::PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plast
 template <class Real>
 double PlasticFlow<Real>::flow(Group& group, const Real* x) {
   double work = 0;
+  Real A[6];
+  forget_trial();
   stress_bounds_.resize(group.volume.size());
-  law_->mises_bounds(group, x, 0, group.packets(), stress_bounds_.data());
-  for (std::size_t s = 0; s < group.volume.size(); ++s) {
-    if (stress_bounds_[s] < Real(surely_below) * (yield_ + hardening_ * strain_[s])) continue;
-    const double of_slot = return_map(group, x, s);
-    if (s < group.size()) work += of_slot;  // padding does not count
-  }
+  each_yielding(group, x, 0, group.packets(), [&](std::size_t s, const Yielding& yielding) {
+    strain_[s] += yielding.flow.equivalent_strain();
+    yielding.rest_A(A);
+    put_rest_shape(group, s, A);
+    if (s < group.size())
+      work += static_cast<double>(group.volume[s]) * yielding.flow.work();  // padding does not count
+  });
   return work;
+}
+
+template <class Real>
+bool PlasticFlow<Real>::begin_trial(Group& group, std::span<const Real> x) {
+  is_on_trial_ = true;
+  if (std::equal(x.begin(), x.end(), trial_x_.begin(), trial_x_.end())) {
+    std::swap(group.A, other_A_);
+    return true;
+  }
+  trial_x_.assign(x.begin(), x.end());
+  other_A_ = group.A;
+  trial_strain_.assign(group.volume.size(), Real(0));
+  stress_bounds_.resize(group.volume.size());
+  return false;
+}
+
+template <class Real>
+void PlasticFlow<Real>::try_flow(Group& group, const Real* x, std::size_t begin, std::size_t end) {
+  each_yielding(group, x, begin, end, [&](std::size_t s, const Yielding& yielding) {
+    trial_strain_[s] = yielding.flow.equivalent_strain();
+    Real A[6];
+    yielding.rest_A(A);
+    for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = A[i];
+  });
+}
+
+template <class Real>
+double PlasticFlow<Real>::trial_potential(const Group& group) const {
+  if (!is_on_trial_) return 0;
+  double sum = 0;
+  for (std::size_t s = 0; s < group.size(); ++s) {
+    if (trial_strain_[s] == 0) continue;
+    const double p = static_cast<double>(trial_strain_[s]), H = static_cast<double>(hardening_);
+    sum += static_cast<double>(group.volume[s]) * p *
+           (static_cast<double>(yield_) + H * static_cast<double>(strain_[s]) + H * p / 2);
+  }
+  return sum;
+}
+
+template <class Real>
+void PlasticFlow<Real>::end_trial(Group& group) {
+  std::swap(group.A, other_A_);
+  is_on_trial_ = false;
+}
+
+template <class Real>
+void PlasticFlow<Real>::add_stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                      Real* K) const {
+  if (!is_on_trial_) return;
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+    if (trial_strain_[s] == 0) continue;
+    RestShape<Real> start = rest_shape(group, s);
+    for (std::size_t i = 0; i < 6; ++i) start.A[i] = other_A_[i][s];
+    Yielding yielding;
+    if (!find_flow(group, x, s, start, yielding) || !yielding.flow.is_minimum) continue;
+    Real k[edge_entries] = {};
+    add_flow_stiffness(yielding.e, yielding.factor, yielding.edges, group.volume[s], yielding.flow, flow_stress(s), k);
+    write_edge_stiffness(k, s, K, true);
+  }
 }
 
 template <class Real>
@@ -85,12 +155,14 @@ ElementGroup<Real> PlasticFlow<Real>::at_rest(Group group) const {
 
 template <class Real>
 void PlasticFlow<Real>::reset(Group& group) {
+  forget_trial();
   group = at_rest(std::move(group));
   std::fill(strain_.begin(), strain_.end(), Real(0));
 }
 
 template <class Real>
 SlotStates<Real> PlasticFlow<Real>::slot_states(Group& group) {
+  forget_trial();  // who asks may write
   SlotStates<Real> states = {{&strain_, 1}, {&group.gamma, 1}};
   for (auto& list : group.A) states.push_back({&list, 1});
   return states;
@@ -98,12 +170,14 @@ SlotStates<Real> PlasticFlow<Real>::slot_states(Group& group) {
 
 template <class Real>
 void PlasticFlow<Real>::scale_rest_shape(std::size_t s, Real factor) {
+  forget_trial();
   for (auto& list : rest_A_) list[s] /= factor * factor;
   rest_gamma_[s] /= factor * factor;
 }
 
 template <class Real>
 void PlasticFlow<Real>::gather_slots(std::span<const std::size_t> from) {
+  forget_trial();
   for (auto& list : rest_A_) heml::gather_slots(list, from);
   heml::gather_slots(rest_gamma_, from);
   heml::gather_slots(strain_, from);
@@ -113,6 +187,7 @@ template <class Real>
 void PlasticFlow<Real>::transfer_state(const PlasticFlow& other, const Group& of_other,
                                        std::span<const std::size_t> from,
                                        const std::vector<SubelementMap<Real>>& subelement_maps, Group& group) {
+  forget_trial();
   for (std::size_t s = 0; s < from.size(); ++s) {
     strain_[s] = other.strain_[from[s]];
     if (strain_[s] == 0) continue;
@@ -124,35 +199,38 @@ void PlasticFlow<Real>::transfer_state(const PlasticFlow& other, const Group& of
 }
 
 template <class Real>
-double PlasticFlow<Real>::return_map(Group& group, const Real* x, std::size_t s) {
-  const auto rest = rest_shape(group, s);
-  const auto kinematics = full_kinematics(group, x, s, rest);
-  if (!(kinematics.at.J > Real(min_J))) return 0;
-  Real factor[3][3], C[6], tau[3], n[3];
-  cholesky3(rest.A, factor);
-  into_rest_frame(factor, kinematics.G, C);
-  const auto e = symmetric_eigen3(C);
-  law_->deviatoric_stress(group, s, e.value, kinematics.at.J, tau);
-  if (!(mises(tau) > yield_ + hardening_ * strain_[s])) return 0;
-
-  const Real length = flow_direction(e.value, n);
-  const auto yield_function = [&](Real gamma) {  // stress beyond yield after a flow of gamma; sets tau
-    Real c[3];
-    for (int i = 0; i < 3; ++i) c[i] = e.value[i] * natural_exp(-2 * gamma * n[i]);
-    law_->deviatoric_stress(group, s, c, kinematics.at.J, tau);
-    return mises(tau) - yield_ - hardening_ * (strain_[s] + Real(equivalent) * gamma);
-  };
-  Real low = 0, high = length;  // the deviatoric strain is 0 at the upper end
-  for (int i = 0; i < 60 && high - low > Real(1e-14) * length; ++i) {
-    const Real middle = (low + high) / 2;
-    (yield_function(middle) > 0 ? low : high) = middle;
+template <class Visit>
+void PlasticFlow<Real>::each_yielding(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                      const Visit& visit) {
+  law_->mises_bounds(group, x, begin, end, stress_bounds_.data() + begin * Group::lanes);
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+    if (stress_bounds_[s] < Real(surely_below) * flow_stress(s).at_start) continue;
+    Yielding yielding;
+    if (find_flow(group, x, s, rest_shape(group, s), yielding)) visit(s, yielding);
   }
-  yield_function(high);
-  double power = 0;
-  for (int i = 0; i < 3; ++i) power += static_cast<double>(tau[i] * n[i]);
-  strain_[s] += Real(equivalent) * high;
-  replace_rest_shape(group, s, factor, e, high, n);
-  return static_cast<double>(rest.volume) * power * static_cast<double>(high);
+}
+
+template <class Real>
+bool PlasticFlow<Real>::find_flow(const Group& group, const Real* x, std::size_t s, const RestShape<Real>& rest,
+                                  Yielding& yielding) const {
+  const auto kinematics = full_kinematics(group, x, s, rest);
+  if (!(kinematics.at.J > Real(min_J))) return false;
+  Real C[6];
+  cholesky3(rest.A, yielding.factor);
+  into_rest_frame(yielding.factor, kinematics.G, C);
+  yielding.e = symmetric_eigen3(C);
+  std::copy_n(&kinematics.e[0][0], 9, &yielding.edges[0][0]);
+  yielding.flow = return_mapping(*law_, group, s, yielding.e.value, kinematics.at.J, flow_stress(s));
+  return yielding.flow.length > 0;
+}
+
+/// A = L N exp(−2d) Nᵀ Lᵀ.
+template <class Real>
+void PlasticFlow<Real>::Yielding::rest_A(Real A[6]) const {
+  Real shrink[3], R[6];
+  for (int i = 0; i < 3; ++i) shrink[i] = natural_exp(-2 * flow.flow[i]);
+  spectral_sum3(e, shrink, R);
+  congruence3(factor, R, A);
 }
 
 template <class Real>

@@ -1,12 +1,20 @@
 #pragma once
 // Finite-strain multiplicative plasticity, F = Fe Fp with det Fp = 1. In tension form it changes the rest shape only:
-// the elastic law of Fe sees C through A = Dm⁻¹ Fp⁻¹ Fp⁻ᵀ Dm⁻ᵀ, so the force loops stay as they are. After each step a
-// return mapping changes the A of elements beyond yield along the deviatoric elastic logarithmic strain (exponential
-// map, principal axes fixed; Simo 1992), by the Δγ at which the von Mises Kirchhoff stress equals yield + hardening ·
-// (equivalent plastic strain). For isotropic laws whose principal stresses are ordered as the stretches, stress times
-// flow is never negative: plastic work is dissipated.
+// the elastic law of Fe sees C through A = Dm⁻¹ Fp⁻¹ Fp⁻ᵀ Dm⁻ᵀ, so the force loops stay as they are. A return mapping
+// (return_mapping.hpp) changes the A of elements beyond yield (exponential map, principal axes fixed; Simo 1992), until
+// the von Mises Kirchhoff stress equals yield + hardening · (equivalent plastic strain).
+//
+// An explicit step flows once it has ended. Within an implicit one every evaluation is of the A that flow to its
+// positions gives, from the A that the step began with:
+//
+//   A of the last step ── try_flow(x) ──► A(x): forces, potential, stiffness ── end_trial() ──► A of the last step
+//
+// and the step ends by flow() at its last positions.
 #include <heml/elastic/group_term.hpp>
+#include <heml/elastic/return_mapping.hpp>
+#include <heml/math/symmetric3.hpp>
 #include <memory>
+#include <span>
 
 namespace heml {
 
@@ -21,6 +29,20 @@ class PlasticFlow {
   /// Return mapping at positions x (3 #V, m): updates A and gamma of elements beyond yield. Returns the plastic work,
   /// J.
   double flow(Group& group, const Real* x);
+
+  // A trial: begin_trial(), try_flow() of all packets, evaluations, end_trial(). Threads may call the functions of
+  // packets [begin, end) on disjoint ranges.
+  /// x: 3 #V, m. Returns whether try_flow() is done with: the last trial was at x too, and the state is as it was.
+  bool begin_trial(Group& group, std::span<const Real> x);
+  /// Gives elements beyond yield the A that flow() would; their gamma stays.
+  void try_flow(Group& group, const Real* x, std::size_t begin, std::size_t end);
+  /// What flow adds to the potential, J: Φ of return_mapping.hpp less W. 0 outside a trial.
+  double trial_potential(const Group& group) const;
+  /// Adds to the stiffness of elements (edge_stiffness.hpp) that they flow as x changes. Outside a trial nothing.
+  void add_stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K) const;
+  /// Restores A.
+  void end_trial(Group& group);
+
   /// A copy with the initial rest shape.
   Group at_rest(Group group) const;
   /// Restores the initial rest shape.
@@ -35,17 +57,37 @@ class PlasticFlow {
                       const std::vector<SubelementMap<Real>>& subelement_maps, Group& group);
   /// The lists of internal state: the plastic strain, and A and gamma of the group.
   SlotStates<Real> slot_states(Group& group);
-  std::size_t bytes() const { return bytes_of(rest_A_, rest_gamma_, strain_, stress_bounds_); }
+  std::size_t bytes() const {
+    return bytes_of(rest_A_, rest_gamma_, strain_, stress_bounds_, trial_x_, trial_strain_, other_A_);
+  }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 
  private:
-  double return_map(Group& group, const Real* x, std::size_t s);
+  /// An element beyond yield, with L of its rest shape, C in its frame, and what flows.
+  struct Yielding {
+    Real factor[3][3], edges[3][3];
+    SymmetricEigen3<Real> e;
+    PlasticReturn<Real> flow;
+    void rest_A(Real A[6]) const;  ///< after the flow
+  };
+  void forget_trial() { trial_x_.clear(); }
+  FlowStress<Real> flow_stress(std::size_t s) const { return {yield_ + hardening_ * strain_[s], hardening_}; }
+  /// Returns whether the slot flows.
+  bool find_flow(const Group& group, const Real* x, std::size_t s, const RestShape<Real>& rest,
+                 Yielding& yielding) const;
+  template <class Visit>
+  void each_yielding(const Group& group, const Real* x, std::size_t begin, std::size_t end, const Visit& visit);
 
   std::unique_ptr<GroupTerm<Real>> law_;
   Real yield_, hardening_;
   std::array<std::vector<Real>, 6> rest_A_;
   std::vector<Real> rest_gamma_, strain_;
-  std::vector<Real> stress_bounds_;  ///< scratch of flow()
+  std::vector<Real> stress_bounds_;  ///< scratch
+  // Of the last trial: where it was, the equivalent strain that flows, 0 where none does, and A there; while it lasts
+  // the group has these A, and other_A_ those of the state.
+  std::vector<Real> trial_x_, trial_strain_;
+  std::array<std::vector<Real>, 6> other_A_;
+  bool is_on_trial_ = false;
 };
 
 /// The plastic flow of a material's elements; null without plasticity.

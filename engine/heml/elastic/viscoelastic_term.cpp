@@ -201,11 +201,6 @@ double ViscoelasticTerm<Real>::energy(const Group& group, std::size_t s, const E
   return static_cast<double>(viscous + fixed) + static_cast<double>(weight_) * law;
 }
 
-template <class Real>
-void ViscoelasticTerm<Real>::deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const {
-  std::fill_n(tau, 3, Real(0));
-}
-
 /// put_total_tensions() of the isochoric law.
 template <class Real>
 void ViscoelasticTerm<Real>::total_tensions(const Group& group, std::size_t s,

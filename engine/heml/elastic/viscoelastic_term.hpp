@@ -50,7 +50,6 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   bool stores() const override { return false; }
   bool valid(const Group&, std::size_t, const ElementKinematics<Real>&) const override { return true; }
   /// Zero: plastic flow depends on the elastic law alone.
-  void deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const override;
 
   /// h: s; 0: no time passes; infinite: fully relaxed.
   void begin_step(Real h) override;

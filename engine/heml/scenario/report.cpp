@@ -94,6 +94,7 @@ std::string report_text(World& world, const SolveFacts& facts, const std::string
                  {"explicit_rescues", work.explicit_rescues},
                  {"unconverged_steps", work.unconverged_steps},
                  {"damped_steps", work.damped_steps},
+                 {"lagging_flow_steps", work.lagging_flow_steps},
                  {"unconverged_residual", work.unconverged_residual},
                  {"wall_seconds", facts.wall_seconds},
                  {"kinetic_energy", energies.kinetic},

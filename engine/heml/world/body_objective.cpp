@@ -109,6 +109,12 @@ void BodyObjective<Real>::elements_changed() {
 }
 
 template <class Real>
+void BodyObjective<Real>::set_flow_lags(bool lags) {
+  flow_lags_ = lags;
+  clear_cache();
+}
+
+template <class Real>
 void BodyObjective<Real>::begin_step(const Vector& x, double time) {
   if (is_refined() && --steps_in_double_ == 0) clear_cache();
   if (!contact_.empty()) contact_.begin(x, time);
@@ -268,6 +274,7 @@ void BodyObjective<Real>::find_forces(const Vector& x) {
   if (is_refined()) {
     is_defined_ = double_body_->forces(x.data(), forces_.data(), team_);
   } else {
+    const FlowTrial trial(body_, at_x, team_, flow_lags_);
     is_defined_ = body_.forces(at_x, f_.data(), team_);
     for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
   }
@@ -288,9 +295,16 @@ std::optional<double> BodyObjective<Real>::value(const Vector& x) {
 }
 
 template <class Real>
+double BodyObjective<Real>::elastic_potential(const Vector& x, const Real* at_x) {
+  if (is_refined()) return double_body_->potential(x.data(), team_);
+  const FlowTrial trial(body_, at_x, team_, flow_lags_);
+  return body_.potential(at_x, team_);
+}
+
+template <class Real>
 double BodyObjective<Real>::find_value(const Vector& x) {
   const Real* at_x = as_real(x, x_);
-  double sum = is_refined() ? double_body_->potential(x.data(), team_) : body_.potential(at_x, team_);
+  double sum = elastic_potential(x, at_x);
   for (std::size_t n = 0; n < masses_->lumped.size(); ++n)
     sum -= static_cast<double>(masses_->heavy()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_->mesh.nodes[n]);
   for (const auto& load : model_->dead)

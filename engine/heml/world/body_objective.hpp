@@ -37,7 +37,7 @@ class BodyObjectiveMemory {
   // Solvers ask again where they have just been; both are empty where time, loads or memory have changed since.
   Vector forces_at_;
   std::deque<std::pair<Vector, double>> values_;  ///< positions and Φ there, of the last few
-  bool is_defined_ = true;
+  bool is_defined_ = true, flow_lags_ = false;
   Vector linearisation_point_;  ///< 3 #V, where pressure that follows the surface is part of K, else empty
 };
 
@@ -61,6 +61,9 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   /// Adds a · mass to the stiffness, not to the residual, a in 1/s²: holds what nothing else does while it is solved.
   void set_regularisation(double a) { regularisation_ = a; }
 
+  /// Whether plastic flow comes after the step alone, and not in all that is evaluated in it
+  /// (elastic/plastic_flow.hpp).
+  void set_flow_lags(bool lags);
   /// A step begins at x, at a time, s; it has ended at x.
   void begin_step(const Vector& x, double time);
   void end_step(const Vector& x);
@@ -129,6 +132,7 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   void clear_cache();
   void find_forces(const Vector& x);
   double find_value(const Vector& x);
+  double elastic_potential(const Vector& x, const Real* at_x);
   void add_external(const Real* x, const Vector& x_double);
   template <class Matrix>
   void add_diagonal(Matrix& matrix) const;

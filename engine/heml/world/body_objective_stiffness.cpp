@@ -47,10 +47,13 @@ void BodyObjective<Real>::each_pressed_point(const Vector& x, const Visit& visit
 
 template <class Real>
 void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
-  if (is_refined())
+  if (is_refined()) {
     double_body_->linearise(x.data(), team_);
-  else
-    body_.linearise(as_real(x, x_), team_);
+  } else {
+    const Real* at_x = as_real(x, x_);
+    const FlowTrial trial(body_, at_x, team_, flow_lags_);
+    body_.linearise(at_x, team_);
+  }
   with_body([&](auto& body) { body.project(projection, team_); });
   const bool with_pressure = !model_->pressures.empty() && projection == Projection::none;
   linearisation_point_ = with_pressure ? x : Vector();

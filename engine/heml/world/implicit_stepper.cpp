@@ -37,7 +37,8 @@ std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
     const bool last = s_.state.time + 1.5 * longest > until;
     const double after = last ? until : s_.state.time + longest;
     const long iterations_before = s_.stats.iterations;
-    if (step(s_.method, after - s_.state.time, after) || damped_step(after - s_.state.time, after)) {
+    const double h = after - s_.state.time;
+    if (step(s_.method, h, after) || lagging_step(h, after) || damped_step(h, after)) {
       ++s_.substeps;
       continue;
     }
@@ -117,6 +118,18 @@ bool ImplicitStepper<Real>::damped_step(double h, double time_after) {
   if (!step(Integrator::backward_euler, h, time_after)) return false;
   ++s_.stats.damped_steps;
   return true;
+}
+
+/// A step that does not converge with plastic flow in it, with flow after it: the stress it ends at is of the flow
+/// before it. So with a step far beyond yield of tissue that hardly hardens.
+template <class Real>
+bool ImplicitStepper<Real>::lagging_step(double h, double time_after) {
+  if (!s_.body.flows_within_steps() || s_.interrupted) return false;
+  s_.implicit_state().body.set_flow_lags(true);
+  const bool done = step(s_.method, h, time_after);
+  s_.implicit_state().body.set_flow_lags(false);
+  if (done) ++s_.stats.lagging_flow_steps;
+  return done;
 }
 
 template <class Real>

@@ -33,6 +33,7 @@ class ImplicitStepper {
  private:
   class StagedStep;
   bool step(Integrator method, double h, double time_after);
+  bool lagging_step(double h, double time_after);
   bool damped_step(double h, double time_after);
   bool take_back_gain(double time, const Vector& x, Vector& v);
   double kinetic(const Vector& v) const;

@@ -12,6 +12,7 @@ struct SolverStats {
   double load = 1;              ///< fraction of motions, loads and gravity reached; below 1 in static worlds alone
   long iterations = 0;          ///< of Newton, over all steps or increments
   double residual = 0;          ///< of the last step or increment, relative to the forces carried (solver.tolerance)
+  long lagging_flow_steps = 0;  ///< that did not converge with plastic flow in them, and were taken with it after them
   long damped_steps = 0;        ///< of a second-order method, taken by backward Euler (implicit_stepper.hpp)
   long explicit_rescues = 0;    ///< ticks that explicit substeps ended, where implicit steps did not converge
   long unconverged_steps = 0;   ///< ended by the best iterate (step_rescue.hpp)

@@ -75,6 +75,7 @@ Finding relaxation(const Trial&);
 Finding creep(const Trial&);
 Finding viscous_loop(const Trial&);
 Finding plastic_cycle(const Trial&);
+Finding ball_contact(const Trial&);
 Finding land_beam(const Trial&);
 Finding land_ventricle(const Trial&);
 Finding land_contraction(const Trial&);

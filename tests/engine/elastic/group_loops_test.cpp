@@ -79,11 +79,11 @@ template <class Real>
 double mises_of(const GroupTerm<Real>& law, const ElementGroup<Real>& group, const Real* x, std::size_t s) {
   const auto rest = rest_shape(group, s);
   const auto kinematics = full_kinematics(group, x, s, rest);
-  Real factor[3][3], C[6], tau[3];
+  Real factor[3][3], C[6];
   cholesky3(rest.A, factor);
   into_rest_frame(factor, kinematics.G, C);
-  law.deviatoric_stress(group, s, symmetric_eigen3(C).value, kinematics.at.J, tau);
-  return std::sqrt(1.5 * static_cast<double>(tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2]));
+  const auto stress = law.deviatoric_stress(group, s, symmetric_eigen3(C).value, kinematics.at.J);
+  return std::sqrt(1.5) * static_cast<double>(stress.norm());
 }
 
 }  // namespace

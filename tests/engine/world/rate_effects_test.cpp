@@ -139,4 +139,47 @@ TEST_CASE("rate effects are the same bits for any number of threads") {
   }
 }
 
+TEST_CASE("plastic flow is part of an implicit step: one long step ends on the yield surface") {
+  constexpr double shear = 0.05, yield = 40;
+  for (const char* law : {"neo_hookean_iso", "mooney_rivlin", "ogden"})
+    for (const Integrator integrator : {Integrator::backward_euler, Integrator::bdf2, Integrator::sdirk2}) {
+      CAPTURE(law);
+      Material material = sample_material(law);
+      material.plasticity = Plasticity{yield, 0};
+      WorldSetup setup = cube(material);
+      for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n) {
+        const Vec3& X = setup.mesh.nodes[n];
+        if ((X.array() > 1e-9).all() && (X.array() < 0.1 - 1e-9).all()) continue;
+        Boundary boundary;
+        boundary.nodes = {static_cast<int>(n)};
+        boundary.translate = Vec3(shear * X.y(), 0, 0);
+        setup.boundary.push_back(boundary);
+      }
+      setup.solver.integrator = integrator;
+      setup.solver.step = 10;  // without inertia
+      auto world = make_world(setup);
+      world->tick();
+      REQUIRE_FALSE(world->halt());
+      double stress = 0;
+      const auto reactions = world->reactions();
+      for (std::size_t b = 0; b < reactions.size(); ++b)
+        stress += reactions[b].x() * setup.mesh.nodes[static_cast<std::size_t>(setup.boundary[b].nodes[0])].y() / 1e-3;
+      CHECK(stress == doctest::Approx(yield / std::sqrt(3.0)).epsilon(0.01));
+      CHECK(world->solver_stats().lagging_flow_steps == 0);
+    }
+}
+
+TEST_CASE("an implicit step far beyond yield that does not converge is taken with the flow after it, and told") {
+  Material material = sample_material("fung_demiray");
+  material.plasticity = Plasticity{1e-4, 0};
+  WorldSetup setup = pulled_cube(material, 0.1, 0.5);
+  setup.solver.integrator = Integrator::backward_euler;
+  setup.solver.step = 0.25;
+  auto world = make_world(setup);
+  for (int k = 0; k < 2 && !world->halt(); ++k) world->tick();
+  REQUIRE_FALSE(world->halt());
+  CHECK(world->solver_stats().lagging_flow_steps > 0);
+  CHECK(world->steps() == 2);
+}
+
 }  // namespace heml::rate_effects_test

@@ -59,6 +59,15 @@ TEST_CASE("validation: Land's beam holds, and a softer one is noticed") {
   CHECK(shortfalls_of(land_beam({true, softer})) > 0);
 }
 
+TEST_CASE("validation: a ball in contact holds, and a softer block is noticed") {
+  CHECK(shortfalls_of(ball_contact({true, make_world})) == 0);
+  const MakeWorld softer = [](WorldSetup setup) {
+    setup.materials[0].material.parameters[0] *= 0.9;
+    return make_world(std::move(setup));
+  };
+  CHECK(shortfalls_of(ball_contact({true, softer})) > 0);
+}
+
 TEST_CASE("validation: materials with memory hold, and other memories are noticed") {
   const MakeWorld slower = [](WorldSetup setup) {
     for (PronyTerm& branch : setup.materials[0].material.relaxation) branch.tau *= 1.1;
