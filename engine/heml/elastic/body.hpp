@@ -252,8 +252,7 @@ class ElasticBody {
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
     bool in_fans;                                      ///< fans_ evaluates the forces of all passive terms
     ActiveTerm<Real>* active = nullptr;                ///< the last of the terms, or null
-
-    bool flows_within_steps = false;  ///< of implicit methods; else after them
+    bool flows_within_steps = false;                   ///< of implicit methods; else after them
 
     Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
     std::size_t first_loop() const { return in_fans ? terms.size() - (active ? 1 : 0) : 0; }  ///< of forces()
