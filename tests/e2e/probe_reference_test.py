@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import os
 import random
 import sys
 import unittest
@@ -182,7 +183,8 @@ def law_test(law):
             m = numbers(material)
             rows = [(name, F) for name, F in states(r) if LAWS[law].in_range(m, [mpf(f) for f in F])]
             self.assertGreater(len(rows), 70)
-            self.compare(material, rows[::1 if k == 0 else 3], r)  # seconds a material, all states
+            every = 1 if k == 0 or "HEML_LONG" in os.environ else 3  # all states take seconds a material
+            self.compare(material, rows[::every], r)
     return test
 
 

@@ -68,7 +68,7 @@ std::span<const Benchmark> benchmarks() {
       {"hertz", "A ball pressed into a block",
        "A rigid ball (radius 20 mm) is pressed by 0.5 to 4 mm into a cylinder (radius and height 40 mm, neo-Hookean, ν "
        "0.3) on a base that holds it, without friction; a quarter of it, backward Euler with steps of a second.",
-       "Axisymmetric elements of nine nodes (`assets/make/hertz_reference.py`), certain to about 0.1 %; Hertz's "
+       "Axisymmetric elements of nine nodes (`assets/make/hertz_reference.py`), certain to about 0.2 %; Hertz's "
        "formula "
        "is of a body without ends.",
        "Depth, m", "Force", "N", ball_contact},

@@ -53,14 +53,27 @@ double hertz(double depth) {
   return 4.0 / 3 * young / (1 - pressed_poisson * pressed_poisson) * std::sqrt(ball_radius) * std::pow(depth, 1.5);
 }
 
+/// The reference between its depths: Hertz's formula times a factor that changes evenly.
+double drawn_force(double depth) {
+  const auto factor = [](const Depth& at) { return at.force / hertz(at.depth); };
+  std::size_t k = 1;
+  while (k + 1 < std::size(depths) && depths[k].depth < depth) ++k;
+  const Depth &a = depths[k - 1], &b = depths[k];
+  const double part = std::max(0.0, (depth - a.depth) / (b.depth - a.depth));
+  return hertz(depth) * ((1 - part) * factor(a) + part * factor(b));
+}
+
 }  // namespace
 
 Finding ball_contact(const Trial& trial) {
   Finding finding;
   Curve formula{"Hertz 1881", true, {{0, 0}}}, reference{"axisymmetric", true, {{0, 0}}};
-  for (int k = 1; k <= 40; ++k) formula.points.push_back({k * 1e-4, hertz(k * 1e-4)});
-  for (const auto& [depth, force] : depths) reference.points.push_back({depth, force});
-  finding.curves = {reference, formula};
+  for (int k = 1; k <= 40; ++k) {
+    const double depth = k * 1e-4;
+    formula.points.push_back({depth, hertz(depth)});
+    reference.points.push_back({depth, drawn_force(depth)});
+  }
+  finding.curves = {formula, reference};
   WorldSetup setup = quarter_block("p2", 8);
   setup.materials[0].material.density = 1;
   setup.solver.integrator = Integrator::backward_euler;

@@ -56,6 +56,7 @@ struct Within {
     return worst / largest(change);
   }
 };
+
 std::vector<std::string_view> laws_that_flow() {
   std::vector<std::string_view> names;
   for (const LawInfo& law : laws())
