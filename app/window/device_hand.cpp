@@ -161,6 +161,7 @@ Status DeviceHand::leave_clamp(const Frame& frame, std::vector<Command>& out) {
   const auto hand = free_hand(frame);
   if (!hand) return no_free_hand;
   out.emplace_back(Grasp{held_->grasp.node, held_->grasp.radius, *hand, held_->grasp.hidden});
+  *tip_ += held_->tool_offset;  // to the clamp: from there it can be taken up again
   held_.reset();
   return {};
 }

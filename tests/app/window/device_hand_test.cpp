@@ -242,6 +242,26 @@ TEST_CASE("a device's hand leaves a clamp, and takes it up again from where it p
   }
 }
 
+TEST_CASE("a device's hand that has just left a clamp takes it up again where it is, also far from where it took hold") {
+  Sheet sheet;
+  sheet.play({.move = {0.1f, 0, 0}});
+  sheet.go_to({0.03f, -0.02f, 0.01f});  // further from node 21 than a grasp reaches
+  sheet.grasp();
+  REQUIRE(only<Grasp>(sheet.commands).node == 21);
+  sheet.show(only<Grasp>(sheet.commands), {0.1, -0.1, 0});
+  for (int k = 0; k < 10; ++k) sheet.play({.move = {0, 0, 1}});
+  const Vec3 target = std::get<MoveTool>(sheet.commands.back()).target;
+  sheet.commands.clear();
+  sheet.clamp();
+  const Grasp left = only<Grasp>(sheet.commands);
+  sheet.frame.tools.clear();
+  sheet.show(left, target);
+  sheet.commands.clear();
+  sheet.grasp();
+  CHECK(only<Grasp>(sheet.commands).hand == first_device_hand);
+  CHECK(only<Grasp>(sheet.commands).node == 21);
+}
+
 TEST_CASE("a device that goes leaves a clamp of what it held, or lets go where there is no hand for one") {
   for (const bool is_full : {false, true}) {
     Sheet sheet;
