@@ -131,6 +131,12 @@ void BsrMatrix::add_edge(int a, int b, const Mat3& B) {
   add(column, row, -B);
 }
 
+void BsrMatrix::add_pair(int a, int b, const Mat3& B) {
+  const int row = number_[static_cast<std::size_t>(a)], column = number_[static_cast<std::size_t>(b)];
+  add(row, column, B);
+  add(column, row, B.transpose());
+}
+
 void BsrMatrix::add_node(int node, const Mat3& B) {
   const int row = number_[static_cast<std::size_t>(node)];
   add(row, row, B);

@@ -36,6 +36,8 @@ class BsrMatrix {
   void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team);
   /// Adds [B −B; −B B], B symmetric (N/m), between two nodes. Rows that do not exist are ignored, here and below.
   void add_edge(int a, int b, const Mat3& B);
+  /// Adds B to the block of rows a and columns b, and its transpose to the other.
+  void add_pair(int a, int b, const Mat3& B);
   /// Adds a symmetric B, or k times the identity, to the diagonal block of a node.
   void add_node(int node, const Mat3& B);
   void add_diagonal(int node, double k);

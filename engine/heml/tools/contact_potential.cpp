@@ -170,18 +170,22 @@ void ContactPotential::add_forces(const Vector& x, Vector& f) {
   for (const Friction& friction : friction_) add(friction.touch.point, friction_force(friction, x), f);
 }
 
-/// Leaves out the negative stiffness that comes of the closest point's rotation about a probe, so that the blocks stay
-/// positive semidefinite; it is small at shallow penetration.
 void ContactPotential::linearise(const Vector& x) {
   find(x);
   x_seen_ = x;
   blocks_.clear();
+  slides_.clear();
   for (const ActiveContact& touch : active_) {
     const Vec3& n = touch.point.normal;
-    Mat3 K = normal_stiffness(touch) * n * n.transpose();
+    const double k = normal_stiffness(touch), force = -k * std::min(0.0, touch.point.gap);
+    Mat3 K = k * n * n.transpose();
     if (touch.point.count == 2)  // geometric stiffness of a taut thread
-      K += normal_stiffness(touch) * -std::min(0.0, touch.point.gap) / at(x, touch.point).norm() * tangent_projector(n);
+      K += force / at(x, touch.point).norm() * tangent_projector(n);
     blocks_.push_back({touch.point, K});
+    const auto& nodes = touch.point.nodes;
+    if (touch.point.count == 3)
+      add_face_slides(surfaces_[touch.surface], touch.point, {at(x, nodes[0]), at(x, nodes[1]), at(x, nodes[2])}, force,
+                      slides_);
   }
   for (const Friction& friction : friction_) {
     const double k = stiffness_of(friction.touch.point);
@@ -199,6 +203,11 @@ void ContactPotential::linearise(const Vector& x) {
 
 void ContactPotential::add_product(const Vector& dx, Vector& out) const {
   for (const auto& [point, K] : blocks_) add(point, K * at(dx, point), out);
+  for (const auto& [nodes, g] : slides_) {
+    double along = 0;
+    for (std::size_t k = 0; k < 3; ++k) along += g[k].dot(at(dx, nodes[k]));
+    for (std::size_t k = 0; k < 3; ++k) out.segment<3>(3 * nodes[k]) += along * g[k];
+  }
 }
 
 bool ContactPotential::within_elements() const {

@@ -15,6 +15,7 @@
 // again, so nothing tunnels, however large the step.
 #include <heml/dynamics/objective.hpp>
 #include <heml/tools/contacts.hpp>
+#include <heml/tools/face_slide.hpp>
 
 namespace heml {
 
@@ -44,6 +45,7 @@ class ContactPotentialMemory {
   Vector x_before_, touches_at_, x_seen_;
   std::vector<ActiveContact> active_;  ///< at positions touches_at_
   std::vector<Block> blocks_;
+  std::vector<FaceSlide> slides_;
   int revisions_ = 0;
 };
 
@@ -71,11 +73,13 @@ class ContactPotential : private ContactPotentialMemory {
   bool crosses_probe(const Vector& x) const;
   double value(const Vector& x);
   void add_forces(const Vector& x, Vector& f);
-  /// Evaluates the stiffness at x, positive semidefinite, for the calls below.
+  /// Evaluates the stiffness at x for the calls below, positive semidefinite: the negative part of a probe's geometric
+  /// stiffness is left out (face_slide.hpp).
   void linearise(const Vector& x);
   void add_product(const Vector& dx, Vector& out) const;
-  /// Calls visit(a, b, 3×3 block in N/m) for diagonal blocks (a == b) and for pairs of corners of one face, each pair
-  /// once. Of threads and self-contact, whose nodes share no element, only diagonal blocks are visited.
+  /// Calls visit(a, b, 3×3 block in N/m, of a's rows and b's columns) for diagonal blocks (a == b) and for pairs of
+  /// corners of one face, each pair once a contact. Of threads and self-contact, whose nodes share no element, only
+  /// diagonal blocks are visited.
   template <class Visit>
   void each_block(const Visit& visit) const;
 
@@ -111,6 +115,9 @@ void ContactPotential::each_block(const Visit& visit) const {
       for (std::size_t b = 0; b <= a; ++b)
         if (const double weight = point.weights[a] * point.weights[b]; weight != 0 && (a == b || point.count == 3))
           visit(point.nodes[a], point.nodes[b], Mat3(weight * K));
+  for (const auto& [nodes, g] : slides_)
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b <= a; ++b) visit(nodes[a], nodes[b], Mat3(g[a] * g[b].transpose()));
 }
 
 }  // namespace heml

@@ -136,8 +136,8 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   void add_external(const Real* x, const Vector& x_double);
   template <class Matrix>
   void add_diagonal(Matrix& matrix) const;
-  template <class Matrix, class Pair>
-  void add_contact_stiffness(Matrix& matrix, const Pair& pair) const;
+  template <class Matrix>
+  void add_contact_stiffness(Matrix& matrix) const;
   template <class Visit>
   void each_pressed_face(const Vector& x, const Visit& visit) const;
   template <class Visit>

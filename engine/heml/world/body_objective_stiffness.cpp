@@ -138,7 +138,7 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
       for (std::size_t j = 0; j < i; ++j)
         matrix.add_pair(nodes[i], nodes[j], -p / 2 * cross_matrix(point.N[i] * along(j) - point.N[j] * along(i)));
   });
-  add_contact_stiffness(matrix, [&](int a, int b, const Mat3& K) { matrix.add_pair(a, b, K); });
+  add_contact_stiffness(matrix);
   add_diagonal(matrix);
 }
 
@@ -146,19 +146,14 @@ template <class Real>
 bool BodyObjective<Real>::add_stiffness_single_precision(BsrMatrix& rows) {
   if (!is_symmetric() || !contact_.within_elements()) return false;
   if (!with_body([&](const auto& body) { return body.add_stiffness(rows, team_); })) return false;
-  add_contact_stiffness(rows, [&](int a, int b, const Mat3& K) {
-    rows.add_edge(a, b, -K);  // and away again what this adds to the nodes' own blocks
-    rows.add_node(a, K);
-    rows.add_node(b, K);
-  });
+  add_contact_stiffness(rows);
   add_diagonal(rows);
   return true;
 }
 
-/// What contact adds; how two nodes are joined is left to `pair`.
 template <class Real>
-template <class Matrix, class Pair>
-void BodyObjective<Real>::add_contact_stiffness(Matrix& matrix, const Pair& pair) const {
+template <class Matrix>
+void BodyObjective<Real>::add_contact_stiffness(Matrix& matrix) const {
   if (contact_.empty()) return;
   const auto is_free = [&](int n) { return free_.number[static_cast<std::size_t>(n)] >= 0; };
   contact_.each_block([&](int a, int b, const Mat3& K) {
@@ -166,7 +161,7 @@ void BodyObjective<Real>::add_contact_stiffness(Matrix& matrix, const Pair& pair
     if (a == b)
       matrix.add_node(a, K);
     else
-      pair(a, b, K);
+      matrix.add_pair(a, b, K);
   });
 }
 

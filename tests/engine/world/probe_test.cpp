@@ -128,6 +128,23 @@ TEST_CASE("probe: a ball pressed into a block feels what theory says, the nearer
   CHECK(fine < 1.4);
 }
 
+TEST_CASE("probe: a ball that is large for the faces it presses takes few iterations of a given step") {
+  constexpr double width = 0.04, height = 0.02, radius = 0.05, depth = 0.002;
+  WorldSetup setup;
+  setup.mesh = make_box(Vec3(width, height, width), {12, 6, 12}, Vec3(-width / 2, -height, -width / 2));
+  setup.materials = {{std::nullopt, soft("neo_hookean", 1e4, 0.3)}};
+  setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.y() < -height + 1e-9; })});
+  setup.solver.integrator = Integrator::backward_euler;
+  setup.solver.step = 1;
+  setup.solver.tolerance = 1e-6;
+  auto world = make_world(setup);
+  REQUIRE(world->apply(ball(radius, {Vec3(0, radius, 0), Vec3(0, radius - depth, 0)}, depth)).ok());
+  world->tick();
+  CHECK_FALSE(world->halt());
+  CHECK(tool_of<ProbeState>(*world).max_penetration <= 2e-5);
+  CHECK(world->solver_stats().iterations <= 25);
+}
+
 TEST_CASE("probe: the momentum of a free body is what the probe has given it") {
   WorldSetup setup = cantilever();
   setup.boundary.clear();
