@@ -57,6 +57,26 @@ TEST_CASE("products in float equal those of the assembled stiffness, for every l
   }
 }
 
+TEST_CASE("a block of two nodes is added with its transpose, and not where a node has no row") {
+  TetMesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{0, 1, 2, 3}};
+  BsrMatrix rows({0, -1, 2, 1}, mesh.tets);
+  rows.set_zero();
+  Mat3 B;
+  B << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  rows.add_pair(0, 2, B);
+  rows.add_pair(1, 3, B);
+  MultiVector x(3, Eigen::Array4f::Zero()), y(3);
+  x[0] = {1, 10, 100, 0};
+  x[2] = {2, 20, 200, 0};
+  ThreadTeam team(1);
+  rows.multiply(x, y, team);
+  CHECK((y[0] == Eigen::Array4f(642, 1308, 1974, 0)).all());  // B x₂
+  CHECK((y[1] == Eigen::Array4f::Zero()).all());
+  CHECK((y[2] == Eigen::Array4f(741, 852, 963, 0)).all());  // Bᵀ x₀
+}
+
 TEST_CASE("a matrix of averaged nodal pressure is refused") {
   std::mt19937_64 random(72);
   ThreadTeam team(1);
