@@ -238,11 +238,13 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
 
 bool ContactPotential::update_lagged(const Vector& x) {
   if (empty() || ++revisions_ > max_revisions) return false;
-  bool changes = add_touching_pairs(x);
+  // Of the points that were resisted: what a new pair goes through says nothing about the penalty.
   find(x);
   std::vector<double> max_penetration(surfaces_.size(), 0.0);
   for (const ActiveContact& touch : active_)
     max_penetration[touch.surface] = std::max(max_penetration[touch.surface], -touch.point.gap);
+  bool changes = add_touching_pairs(x);
+  find(x);
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
     if (max_penetration[s] > bound_ && stiffness_factor_[s] < stiffest_spring) {
       stiffness_factor_[s] *= std::clamp(2 * max_penetration[s] / bound_, 2.0, 32.0);

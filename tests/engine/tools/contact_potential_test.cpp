@@ -290,7 +290,7 @@ TEST_CASE("tissue that met tissue on the way is pushed back with the slope of it
   CHECK(potential.value(crossed) == 0);     // no pair has met yet
   CHECK(potential.update_lagged(crossed));  // now node 4 and the face of 0, 1, 2 have
   const double k = potential.value(crossed) * 2 / (0.1 * 0.1);
-  CHECK(k > 0);
+  CHECK(k == doctest::Approx(0.5 * 100));  // no stiffer: nothing has resisted yet
   const Vector f = forces(potential, crossed);
   CHECK((f.segment<3>(12) - Vec3(0, 0, k * 0.1)).norm() < 1e-10 * k);
   Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
@@ -303,6 +303,8 @@ TEST_CASE("tissue that met tissue on the way is pushed back with the slope of it
   CHECK(gradient_error(potential, crossed + 0.01 * random_direction(random, 24)) < 1e-8);
   potential.linearise(crossed);
   CHECK_FALSE(potential.within_elements());
+  CHECK(potential.update_lagged(crossed));  // what resists and gives way so far becomes stiffer
+  CHECK(potential.value(crossed) * 2 / (0.1 * 0.1) == doctest::Approx(32 * k));
   potential.disable_self_contact();
   potential.reset();
   potential.begin(apart, 0);

@@ -259,6 +259,19 @@ TEST_CASE("quadratic contact: a cut opens as freely as without, and closes no fu
   CHECK(overlapping(*passed, 2e-4) > 20);
 }
 
+TEST_CASE("quadratic contact: a stack that comes to rest takes implicit steps that converge") {
+  Bodies made = bodies(make_box(Vec3::Constant(side), {3, 3, 3}), make_box(Vec3::Constant(side), {2, 2, 2}),
+                       Vec3(0, side, 0), Integrator::backward_euler, 0);
+  made.setup.tables = {{Vec3::Zero(), Vec3::UnitY(), 0}};
+  made.setup.gravity = Vec3(0, -g, 0);
+  made.setup.solver.damping = 10;
+  const auto world = make_world(made.setup);
+  run_until(*world, 0.12);
+  CHECK(world->solver_stats().explicit_rescues == 0);
+  CHECK(world->solver_stats().unconverged_steps == 0);
+  CHECK(world->solver_stats().iterations < 300);
+}
+
 TEST_CASE("quadratic contact: the same bits for any number of threads, after a reset, an undo and a snapshot") {
   for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler})
     for (const bool single : {false, true}) {
