@@ -11,11 +11,13 @@ namespace {
 
 constexpr std::size_t chunks_per_range = 4;               // so that others can run most of a late thread's range
 constexpr std::size_t chunk_alignment = 16;               // items; avoids false sharing of cache lines
-constexpr auto max_spin = std::chrono::microseconds(50);  // about the time it takes to wake a thread
+// Twice the time it takes to wake a thread, and more than the serial part between two loops of an implicit step: a
+// worker that falls asleep in each of those gaps comes too late to each loop.
+constexpr auto max_spin = std::chrono::microseconds(100);
 constexpr int spins_per_clock_check = 32;
 constexpr int max_spin_budget = 16;         // loops
 constexpr double max_loss_fraction = 0.02;  // net time lost to waiting, as a fraction of the caller's time
-constexpr double max_credit = 0.002;        // s
+constexpr double max_credit = 0.02;         // s; workers that save much may lose one time slice now and then
 constexpr double max_serial_time =
     0.25;                             // s; bounds the effect of a pause of the whole program, which looks like a loss
 constexpr double waiting_weight = 3;  // weight of time waited: it also cools caches and keeps the core from others
