@@ -18,6 +18,7 @@
 #include <heml/elastic/group_term.hpp>
 #include <heml/elastic/mean_dilatation.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
+#include <heml/elastic/packet_bounds.hpp>
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/projection.hpp>
 #include <heml/mesh/edit.hpp>
@@ -149,6 +150,12 @@ class ElasticBody {
   Real frequency_bound(const Real* x, ThreadTeam& team);
   /// Upper bound of the largest eigenvalue of M⁻¹D (1/s), D the viscous damping matrix at x.
   Real damping_bound(const Real* x, ThreadTeam& team);
+  /// The same `steps` after their last evaluation with the same `packets`, of those alone that may have become the
+  /// largest since.
+  Real frequency_bound(const Real* x, ThreadTeam& team, PacketBounds<Real>& packets, int steps);
+  Real damping_bound(const Real* x, ThreadTeam& team, PacketBounds<Real>& packets, int steps);
+  /// Packets with a corner within `radius` of `place` at rest, m; ascending.
+  std::vector<int> packets_near(const Vec3& place, double radius) const;
 
   /// Bounds of ω² (1/s²) from the terms of each element alone, #T in inner order, without nodal pressure and springs;
   /// of a quadratic element from its worst point.
@@ -334,7 +341,7 @@ class ElasticBody {
   Real meshed_volume(const ElementGroup<Real>& group, std::size_t s) const;
   std::vector<double> point_masses() const;
   template <class Bound>
-  Real max_bound(ThreadTeam& team, const Bound& bound) const;
+  Real max_bound(ThreadTeam& team, PacketBounds<Real>& packets, int steps, const Bound& bound) const;
 
   /// Calls visit(part, slot, kinematics, rest shape) for every element.
   template <class Visit>

@@ -1,4 +1,4 @@
-// The stiffness K: its evaluation, projection and products, and bounds of its eigenvalues.
+// The stiffness K: its evaluation, projection and products.
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/body.hpp>
@@ -123,75 +123,6 @@ void ElasticBody<Real>::quadratic_stiffness(std::size_t p, std::size_t first_slo
   }
 }
 
-/// Maximum over the parts of the sum of the bounds of their terms.
-template <class Real>
-template <class Bound>
-Real ElasticBody<Real>::max_bound(ThreadTeam& team, const Bound& bound) const {
-  Real of_all = 0;
-  std::mutex mutex;  // a maximum does not depend on the order it is taken in
-  for (const Part& part : parts_) {
-    Real of_part = 0;
-    for (const auto& term : part.terms) {
-      Real largest = 0;
-      team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
-        const Real value = bound(*term, *part.group, begin, end);
-        std::lock_guard lock(mutex);
-        largest = value > largest || std::isnan(value) ? value : largest;
-      });
-      of_part += largest;
-    }
-    of_all = of_part > of_all || std::isnan(of_part) ? of_part : of_all;
-  }
-  return of_all;
-}
-
-template <class Real>
-Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
-  x = inner_positions(x, team);
-  Real bound = max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
-    return term.frequency_bound(group, x, begin, end);
-  });
-  if (fans_.needs_state()) fans_.read_state(fan_slots());
-  bound += fans_.state_bound(fan_slots());
-  if (pressure_) bound += pressure_->frequency_bound(x, team);
-  Real of_elements = 0;
-  std::mutex mutex;
-  each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-    const Real value = part.dilatation->frequency_bound(*part.group, x, begin, end);
-    std::lock_guard lock(mutex);
-    of_elements = value > of_elements || std::isnan(value) ? value : of_elements;
-  });
-  bound += of_elements;
-  if (!layout_->joints.springs.empty()) bound += layout_->joints.springs.frequency_bound(masses());
-  return bound;
-}
-
-template <class Real>
-Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
-  if (!has_internal_state()) return 0;
-  x = inner_positions(x, team);
-  return max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
-    return term.damping_bound(group, x, begin, end);
-  });
-}
-
-template <class Real>
-std::vector<Real> ElasticBody<Real>::element_bounds(const Real* x) const {
-  std::vector<Real> bounds(layout_->mesh.tets.size(), Real(0));
-  each_slot(
-      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
-        for (const auto& term : part.terms)
-          bounds[static_cast<std::size_t>(part.group->element[s])] +=
-              term->slot_frequency_bound(*part.group, s, kinematics, rest);
-      });
-  if (layout_->virtual_corners) {
-    for (std::size_t t = 0; t < elements(); ++t)
-      bounds[t] = *std::max_element(&bounds[element_points * t], &bounds[element_points * t] + element_points);
-    bounds.resize(elements());
-  }
-  return bounds;
-}
-
 template void ElasticBody<float>::linearise(const float*, ThreadTeam&);
 template void ElasticBody<double>::linearise(const double*, ThreadTeam&);
 template void ElasticBody<float>::project(Projection, ThreadTeam&);
@@ -204,11 +135,5 @@ template void ElasticBody<float>::element_stiffness(std::size_t, std::size_t, El
 template void ElasticBody<double>::element_stiffness(std::size_t, std::size_t, ElementMatrix<double>&) const;
 template void ElasticBody<float>::quadratic_stiffness(std::size_t, std::size_t, QuadraticMatrix<float>&) const;
 template void ElasticBody<double>::quadratic_stiffness(std::size_t, std::size_t, QuadraticMatrix<double>&) const;
-template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&);
-template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&);
-template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&);
-template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&);
-template std::vector<float> ElasticBody<float>::element_bounds(const float*) const;
-template std::vector<double> ElasticBody<double>::element_bounds(const double*) const;
 
 }  // namespace heml

@@ -74,7 +74,7 @@ class FanForces {
   std::size_t bytes() const;
 
  private:
-  static constexpr std::size_t grain_ = 4096;  ///< min. elements per thread, which outweigh the cost of waking it
+  static constexpr std::size_t grain_ = 2048;  ///< min. elements per thread, which outweigh the cost of waking it
 
   struct Law {
     FanKernel<Real> kernel;

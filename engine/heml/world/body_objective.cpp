@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <heml/elastic/bsr_matrix.hpp>
 #include <heml/materials/material.hpp>
@@ -12,6 +13,7 @@ constexpr std::size_t values_remembered = 3;  // where a step began, where it wo
 constexpr double max_penetration = 1e-4;      // of the body's size: how far inside a table or a probe tissue may be
 constexpr double long_way = 0.02;             // of the spacing of nodes: a shorter step turns no good element
 constexpr double nothing = 1e-12;             // N: smaller forces count as none
+constexpr std::size_t element_grain = 2048;   // whose volumes outweigh the cost of waking a thread
 // A body in float whose values were round-off: what made them so rarely ends within a few steps, and finding out costs
 // iterations.
 constexpr int steps_in_double = 64;
@@ -206,9 +208,14 @@ template <class Real>
 int BodyObjective<Real>::count_inverted(const Vector& x) const {
   if (!model_->midedges.empty())
     return count_inverted_points(model_->mesh.tets, model_->midedges, [&](int n) { return at(x, n); });
-  return static_cast<int>(std::count_if(model_->mesh.tets.begin(), model_->mesh.tets.end(), [&](const Tet& tet) {
-    return !(signed_volume(at(x, tet[0]), at(x, tet[1]), at(x, tet[2]), at(x, tet[3])) > 0);
-  }));
+  const std::vector<Tet>& tets = model_->mesh.tets;
+  std::atomic<int> inverted{0};
+  team_.parallel_for(tets.size(), element_grain, [&](std::size_t begin, std::size_t end) {
+    inverted += static_cast<int>(std::count_if(&tets[begin], &tets[begin] + (end - begin), [&](const Tet& tet) {
+      return !(signed_volume(at(x, tet[0]), at(x, tet[1]), at(x, tet[2]), at(x, tet[3])) > 0);
+    }));
+  });
+  return inverted;
 }
 
 template <class Real>

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <heml/dynamics/integrator_list.hpp>
+#include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/world/explicit_stepper.hpp>
 #include <heml/world/failure.hpp>
 #include <heml/world/stable_step.hpp>
@@ -21,6 +22,32 @@ bool all_within(const Real* v, std::size_t begin, std::size_t end, Real most) {
   Count within = 0;
   for (std::size_t i = begin; i < end; ++i) within += std::abs(v[i]) <= most ? Count(1) : Count(0);
   return static_cast<std::size_t>(within) == end - begin;
+}
+
+template <class Real, class Method>
+HEML_WIDE void wide_first_half(Real h, Real damping, const FirstHalfStep<Real>& at, std::size_t begin,
+                               std::size_t end) {
+  Method::first_half_step(h, damping, at, begin, end);
+}
+template <class Real, class Method>
+HEML_WIDE bool wide_second_half(Real h, Real damping, const Real* inverse_mass, const Real* f, Real* v,
+                                std::size_t begin, std::size_t end, Real fastest) {
+  Method::second_half_step(h, damping, inverse_mass, f, v, begin, end);
+  return all_within(v, begin, end, fastest);
+}
+
+template <class Real, class Method>
+void first_half(Real h, Real damping, const FirstHalfStep<Real>& at, std::size_t begin, std::size_t end) {
+  if (has_avx2()) return wide_first_half<Real, Method>(h, damping, at, begin, end);
+  Method::first_half_step(h, damping, at, begin, end);
+}
+/// Returns whether all speeds are at most `fastest`.
+template <class Real, class Method>
+bool second_half(Real h, Real damping, const Real* inverse_mass, const Real* f, Real* v, std::size_t begin,
+                 std::size_t end, Real fastest) {
+  if (has_avx2()) return wide_second_half<Real, Method>(h, damping, inverse_mass, f, v, begin, end, fastest);
+  Method::second_half_step(h, damping, inverse_mass, f, v, begin, end);
+  return all_within(v, begin, end, fastest);
 }
 
 }  // namespace
@@ -92,14 +119,14 @@ std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_a
   const FirstHalfStep<Real> first{inverse_mass_per_dof,   s.f.data(), s_.last_valid.x.data(),
                                   s_.last_valid.v.data(), s.x.data(), s.v.data()};
   s_.team.parallel_for(s_.masses->inverse_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
-    Method::first_half_step(h, damping, first, begin, end);
+    first_half<Real, Method>(h, damping, first, begin, end);
   });
   if (!s_.contacts.empty())
     s_.impulses.first_half_step(s_.contacts, s_.last_valid.time, time_after,
                                 Method::damping_divisor(static_cast<double>(h), s_.setup->solver.damping),
                                 s_.masses->inverse, s_.last_valid.x.data(), s.x.data(), s.v.data());
   s.time = time_after;
-  s_.move_constrained();
+  s_.move_constrained(true);
   if (s_.has_internal_state) s_.body.begin_step(h);
   if (!s_.evaluate_forces()) return restore_last_valid(s_, StopReason::Cause::out_of_range);
   // Ten times the size of the body in a step, or NaN: the step was unstable.
@@ -108,8 +135,8 @@ std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_a
   s_.team.parallel_for(s_.masses->inverse_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t some = begin; some < end; some += cached_coordinates) {
       const std::size_t last = std::min(end, some + cached_coordinates);
-      Method::second_half_step(h, damping, inverse_mass_per_dof, s.f.data(), s.v.data(), some, last);
-      if (!all_within(s.v.data(), some, last, fastest)) sane.store(false, std::memory_order_relaxed);
+      if (!second_half<Real, Method>(h, damping, inverse_mass_per_dof, s.f.data(), s.v.data(), some, last, fastest))
+        sane.store(false, std::memory_order_relaxed);
     }
   });
   if (!sane) return restore_last_valid(s_, StopReason::Cause::unstable);

@@ -80,7 +80,7 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
   if (!s_.recovery || s_.recovering() || s_.halt) return std::nullopt;
   RecoveryState<Real>& recovery = *s_.recovery;
   recovery.track_tools(s_.grasps, s_.state.time);
-  const StateCheck check = recovery.check(*s_.model, s_.state, s_.masses->lumped);
+  const StateCheck check = recovery.check(*s_.model, s_.state, s_.masses->lumped, s_.team);
   const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model->mesh.tets.size());
   if (!(check.min_J < worst_J || inverted > max_inverted || check.speed > recovery.max_speed)) {
     keep_state();
@@ -107,7 +107,7 @@ bool RecoveryController<Real>::is_step_hopeless() const {
 template <class Real>
 bool RecoveryController<Real>::takes_over(const StopReason& failure) {
   if (!s_.recovery || s_.recovering() || is_step_hopeless()) return false;
-  StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.masses->lumped);
+  StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.masses->lumped, s_.team);
   if (failure.cause == StopReason::Cause::not_converged && !(check.min_J < min_healthy_J)) return false;
   const auto& file_tet = s_.model->order.file_tet;
   if (failure.element >= 0)
@@ -209,7 +209,7 @@ template <class Real>
 void RecoveryController<Real>::step(double until) {
   step_surrogate(until);
   RecoveryState<Real>& recovery = *s_.recovery;
-  const StateCheck check = recovery.check(*s_.model, s_.state, s_.masses->lumped);
+  const StateCheck check = recovery.check(*s_.model, s_.state, s_.masses->lumped, s_.team);
   recovery.healthy_steps = check.min_J > min_healthy_J ? recovery.healthy_steps + 1 : 0;
   const bool is_calm = check.speed <= calm_speed * shear_wave_speed();
   if (recovery.healthy_steps >= (is_calm ? calm_steps : moving_steps)) end();
@@ -221,7 +221,7 @@ void RecoveryController<Real>::step_surrogate(double until) {
   ImplicitState<Real>& implicit = s_.recovery->surrogate->implicit;
   // A collapsed body, whose forces are too small to expand it, or a tangled one at a minimum of energy is moved towards
   // its rest shape.
-  const StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.masses->lumped);
+  const StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.masses->lumped, s_.team);
   if (check.extent < collapsed_extent) move_towards_rest(collapsed_fraction);
   if (check.inverted == 0 && !s_.recovery->is_folded(s_.state))
     s_.recovery->is_tangled = false;

@@ -2,11 +2,13 @@
 #include <cmath>
 #include <heml/world/recovery_state.hpp>
 #include <limits>
+#include <mutex>
 
 namespace heml {
 namespace {
 
-constexpr double tool_interval = 0.02;  // s: commands that move a tool arrive at about 60 Hz
+constexpr double tool_interval = 0.02;       // s: commands that move a tool arrive at about 60 Hz
+constexpr std::size_t element_grain = 2048;  // whose volumes outweigh the cost of waking a thread
 
 template <class Real>
 Vec3 at(const std::vector<Real>& values, int node) {
@@ -37,14 +39,35 @@ bool is_upright(const Tet& tet, const Position& position) {
 
 /// Calls visit(element, m³) with the signed volume of each point at positions given by position(node).
 template <class Real, class Position, class Visit>
-void each_volume(const Model<Real>& model, const Position& position, const Visit& visit) {
-  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
+void each_volume(const Model<Real>& model, const Position& position, std::size_t begin, std::size_t end,
+                 const Visit& visit) {
+  for (std::size_t t = begin; t < end; ++t) {
     const Tet& tet = model.mesh.tets[t];
     if (model.midedges.empty())
       visit(t, signed_volume(position(tet[0]), position(tet[1]), position(tet[2]), position(tet[3])));
     else
       for (const double volume : point_volumes(tet, model.midedges[t], position)) visit(t, volume);
   }
+}
+
+/// Inverted elements of [begin, end), the lowest J among them and the first element that has it.
+template <class Real, class Position>
+StateCheck check_elements(const RecoveryReference& reference, const Model<Real>& model, const Position& x,
+                          std::size_t begin, std::size_t end) {
+  StateCheck check;
+  std::size_t point = begin * (model.midedges.empty() ? 1 : element_points), last_inverted = end;
+  each_volume(model, x, begin, end, [&](std::size_t t, double volume) {
+    const double rest = reference.volume[point++];
+    const double J = std::isfinite(volume) ? volume / rest : -std::numeric_limits<double>::infinity();
+    if (!(J > 0) && t != last_inverted) {
+      ++check.inverted;
+      last_inverted = t;
+    }
+    if (!(J < check.min_J)) return;
+    check.min_J = J;
+    check.worst = static_cast<int>(t);
+  });
+  return check;
 }
 
 }  // namespace
@@ -55,7 +78,7 @@ RecoveryReference make_recovery_reference(const Model<Real>& model, const std::v
   RecoveryReference rest;
   rest.extent = spread(masses, X).first;
   rest.volume.reserve(model.mesh.tets.size() * (model.midedges.empty() ? 1 : 4));
-  each_volume(model, X, [&](std::size_t t, double volume) {
+  each_volume(model, X, 0, model.mesh.tets.size(), [&](std::size_t t, double volume) {
     const double scale = rest_scale(model.mesh, t);
     rest.volume.push_back(scale * scale * scale * volume);
   });
@@ -74,20 +97,18 @@ bool RecoveryState<Real>::is_folded(const State<Real>& state) const {
 
 template <class Real>
 StateCheck RecoveryState<Real>::check(const Model<Real>& model, const State<Real>& state,
-                                      const std::vector<Real>& masses) const {
+                                      const std::vector<Real>& masses, ThreadTeam& team) const {
   StateCheck check;
-  std::size_t point = 0, last_inverted = this->reference->volume.size();
   const auto x = [&](int n) { return at(state.x, n); };
-  each_volume(model, x, [&](std::size_t t, double volume) {
-    const double rest = this->reference->volume[point++];
-    const double J = std::isfinite(volume) ? volume / rest : -std::numeric_limits<double>::infinity();
-    if (!(J > 0) && t != last_inverted) {
-      ++check.inverted;
-      last_inverted = t;
+  std::mutex mutex;
+  team.parallel_for(model.mesh.tets.size(), element_grain, [&](std::size_t begin, std::size_t end) {
+    const StateCheck part = check_elements(*this->reference, model, x, begin, end);
+    std::lock_guard lock(mutex);
+    check.inverted += part.inverted;
+    if (part.min_J < check.min_J || (part.min_J == check.min_J && part.worst < check.worst)) {
+      check.min_J = part.min_J;
+      check.worst = part.worst;
     }
-    if (!(J < check.min_J)) return;
-    check.min_J = J;
-    check.worst = static_cast<int>(t);
   });
   const Vec3 mean = spread(masses, [&](int n) { return at(state.v, n); }).second;
   for (std::size_t n = 0; n < masses.size(); ++n) {

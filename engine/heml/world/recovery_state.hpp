@@ -73,7 +73,8 @@ class RecoveryState : public RecoveryProgress<Real> {
     heml::append(edit, this->last_good.v, 3);
   }
 
-  StateCheck check(const Model<Real>& model, const State<Real>& state, const std::vector<Real>& masses) const;
+  StateCheck check(const Model<Real>& model, const State<Real>& state, const std::vector<Real>& masses,
+                   ThreadTeam& team) const;
   /// Whether an element is folded: a quadratic one can be, while its points are upright. Of linear ones: false.
   bool is_folded(const State<Real>& state) const;
   /// Updates tool_speed from the tools' positions at a time (s).

@@ -14,6 +14,17 @@ std::vector<Material> materials_of(const WorldSetup& setup) {
   return materials;
 }
 
+/// Of nodes [begin, end). By coordinate, so that the loop vectorises.
+template <class Real>
+void add_weights(const Real* mass, const Vector3<Real>& g, Real* f, std::size_t begin, std::size_t end) {
+  const Real gx = g.x(), gy = g.y(), gz = g.z();
+  for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
+    f[i] += mass[i] * gx;
+    f[i + 1] += mass[i + 1] * gy;
+    f[i + 2] += mass[i + 2] * gz;
+  }
+}
+
 BodyOptions options_of(const WorldSetup& setup) {
   return {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads};
 }
@@ -60,6 +71,8 @@ void Simulation<Real>::update_masses() {
   now.inverse_per_dof.reserve(3 * now.inverse.size());
   for (std::size_t n = 0; n < held.size(); ++n)
     for (const bool is_held : held[n].has) now.inverse_per_dof.push_back(is_held ? Real(0) : now.inverse[n]);
+  now.heavy_per_dof.reserve(now.inverse_per_dof.size());
+  for (const Real m : now.heavy()) now.heavy_per_dof.insert(now.heavy_per_dof.end(), 3, m);
   if (now != *masses) masses = std::move(now);  // else others may share them still
   for (auto& grasp : grasps) grasp.update_masses(masses->inverse);
 }
@@ -76,8 +89,9 @@ void Simulation<Real>::update_regions() {
 }
 
 template <class Real>
-void Simulation<Real>::move_constrained() {
+void Simulation<Real>::move_constrained(bool moving_alone) {
   for (const ConstrainedNode& constrained : model->constrained) {
+    if (moving_alone && !(model->speeds[static_cast<std::size_t>(constrained.entry)] > 0)) continue;
     const PrescribedMotion::At at = prescribed_at(*model, constrained, state.time);
     set_along(constrained.axes, constrained.node, at.x, state.x);
     set_along(constrained.axes, constrained.node, at.v, state.v);
@@ -107,11 +121,9 @@ bool Simulation<Real>::evaluate_forces() {
   body.set_activation(load());
   const bool valid = acting_body().forces(x, f, team);
   const Vector3<Real> g = gravity().template cast<Real>();
-  const std::vector<Real>& heavy = masses->heavy();
   if (!g.isZero(0))
-    team.parallel_for(heavy.size(), node_grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n)
-        for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += heavy[n] * g[static_cast<int>(i)];
+    team.parallel_for(node_count(), node_grain, [&](std::size_t begin, std::size_t end) {
+      add_weights(masses->heavy_per_dof.data(), g, f, begin, end);
     });
   for (const auto& load : model->dead) add_load(load, state.time, f);
   for (const auto& load : model->pressures) add_load(load, state.time, x, f);

@@ -35,6 +35,7 @@ struct StepLimit {
   double at_start = 0;        ///< s, at the start or the last Reset
   int steps_since_bound = 0;  ///< steps since the frequency bound was evaluated
   int interval = 0;           ///< steps until it is evaluated again
+  std::vector<long> watched;  ///< serial numbers of the grasps near which every element is evaluated each time
 };
 
 /// The values of a simulation that a tick or a command changes and that refer to nothing else: whoever adds one adds it
@@ -55,6 +56,7 @@ struct SimulationState {
 
   Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
   StepLimit limit;
+  PacketBounds<Real> frequency_bounds, damping_bounds;  ///< of acting_body(), behind the limit
   long ticks = 0, steps = 0;
   long origin_tick = 0;            ///< tick of the start, the last Reset, or the last change of the rate
   double origin_time = 0;          ///< s, state.time at origin_tick
@@ -89,7 +91,9 @@ struct Simulation : SimulationState<Real> {
   /// Masses and inverse masses from the body and the constraints.
   void update_masses();
   /// Sets constrained and pinned nodes to their prescribed positions and velocities at state.time.
-  void move_constrained();
+  /// moving_alone: of the constrained ones only those whose supports move at some time; a step leaves the others where
+  /// they are.
+  void move_constrained(bool moving_alone = false);
   /// Writes the forces of all but supports at the current state to state.f. Returns false where a law is undefined.
   bool evaluate_forces();
   /// Part of gravity and active stress that acts: below 1 in static worlds alone, which ramp all loads.

@@ -53,6 +53,7 @@ std::size_t SimulationSnapshot<Real>::bytes() const {
   sum += bytes_of(setup->midedges, topology->elements) + body.bytes();
   if (values.contacts.tissue) sum += values.contacts.tissue->bytes();
   sum += bytes_of(values.state.x, values.state.v, values.state.f, values.last_valid.x, values.last_valid.v);
+  sum += values.frequency_bounds.bytes() + values.damping_bounds.bytes();
   return sum + values.masses->bytes();
 }
 

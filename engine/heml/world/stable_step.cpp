@@ -16,23 +16,64 @@ constexpr double growth_of_steps = 0.001;  // per step, at most
 constexpr double change_between_bounds = 0.02;
 constexpr double steps_between_bounds_when_calm = 32;  // at most: its cost is then negligible
 constexpr int steps_between_bounds_at_first = 8;
-}  // namespace
+// Elements so near to what a hand holds are evaluated each time, whatever their bounds were.
+constexpr double watched_spacings = 1;
+
+/// Chooses the elements that hands deform.
+template <class Real>
+void watch_grasps(Simulation<Real>& s) {
+  std::vector<long> serials;
+  for (const auto& grasp : s.grasps) serials.push_back(grasp.id().serial);
+  if (serials == s.limit.watched) return;
+  std::vector<int> packets;
+  for (const auto& grasp : s.grasps) {
+    const Vec3& place = s.model->mesh.nodes[static_cast<std::size_t>(grasp.center())];
+    const double radius = static_cast<double>(grasp.radius()) + watched_spacings * s.model->spacing;
+    const std::vector<int> near = s.acting_body().packets_near(place, radius);
+    packets.insert(packets.end(), near.begin(), near.end());
+  }
+  std::sort(packets.begin(), packets.end());
+  packets.erase(std::unique(packets.begin(), packets.end()), packets.end());
+  s.damping_bounds.watch(packets);
+  s.frequency_bounds.watch(std::move(packets));
+  s.limit.watched = std::move(serials);
+}
 
 template <class Real>
-void find_stable_step(Simulation<Real>& s) {
+void forget_bounds(Simulation<Real>& s) {
+  s.frequency_bounds.forget();
+  s.damping_bounds.forget();
+}
+
+/// Evaluates the bounds, of all elements that may have the largest, and sets limit.stable.
+template <class Real>
+void evaluate_bounds(Simulation<Real>& s) {
   ElasticBody<Real>& body = s.acting_body();
-  double lambda = static_cast<double>(body.frequency_bound(s.state.x.data(), s.team)), omega = 0;
+  const int steps = s.limit.steps_since_bound;
+  double lambda = static_cast<double>(body.frequency_bound(s.state.x.data(), s.team, s.frequency_bounds, steps));
+  double omega = 0;
   for (const auto& grasp : s.grasps) {  // hands may hold the same node: all that pulls at one
     lambda += static_cast<double>(grasp.omega()) * static_cast<double>(grasp.omega());
     omega += static_cast<double>(grasp.omega());
   }
   const double half =
-      omega + (s.has_internal_state ? static_cast<double>(body.damping_bound(s.state.x.data(), s.team)) / 2 : 0);
+      omega + (s.has_internal_state
+                   ? static_cast<double>(body.damping_bound(s.state.x.data(), s.team, s.damping_bounds, steps)) / 2
+                   : 0);
   const bool cut = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.split > 0; });
   const bool torn = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.torn > 0; });
   const double part = torn ? safety_of_shreds : cut ? safety_of_pieces : safety;
   s.limit.stable = part * 2 / (half + std::sqrt(half * half + lambda));
   s.limit.steps_since_bound = 0;
+}
+}  // namespace
+
+template <class Real>
+void find_stable_step(Simulation<Real>& s) {
+  s.limit.watched.clear();  // elements may have other places
+  watch_grasps(s);
+  forget_bounds(s);
+  evaluate_bounds(s);
   s.limit.interval = steps_between_bounds_at_first;
 }
 
@@ -40,7 +81,9 @@ template <class Real>
 void update_stable_step(Simulation<Real>& s) {
   const double before = s.limit.stable;
   const int steps = s.limit.steps_since_bound, interval = s.limit.interval;
-  find_stable_step(s);
+  watch_grasps(s);
+  if (s.contacts.probe) forget_bounds(s);  // it may touch any element
+  evaluate_bounds(s);
   const double change = std::abs(s.limit.stable / before - 1);
   const double enough = std::isfinite(change) ? steps * change_between_bounds / std::max(change, 1e-9) : 1;
   s.limit.interval =

@@ -291,10 +291,13 @@ bool TypedWorld<Real>::copy_motion_from(const World& leader) {
     return false;
   ++s_.changes;
   s_.state = o.state;
+  s_.move_constrained();
   s_.last_valid = s_.state;
   s_.grasps = o.grasps;
   s_.impulses.set_memory(o.impulses.memory());
   s_.limit.stable = o.limit.stable;
+  s_.frequency_bounds.forget();
+  s_.damping_bounds.forget();
   s_.halt.reset();
   if (s_.implicit) s_.implicit->h_before = 0;  // BDF2 restarts
   return true;

@@ -1,0 +1,169 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <heml/elastic/packet_bounds.hpp>
+#include <limits>
+#include <random>
+
+#include "small_body.hpp"
+
+namespace heml::packet_bounds_test {
+namespace {
+
+/// One evaluation of these bounds, `steps` after the last.
+double evaluate(PacketBounds<double>& packets, const std::vector<double>& bounds, int steps) {
+  packets.begin(bounds.size(), steps);
+  for (const int p : packets.due()) packets.set(static_cast<std::size_t>(p), bounds[static_cast<std::size_t>(p)]);
+  return packets.end();
+}
+
+double maximum(const std::vector<double>& bounds) { return *std::max_element(bounds.begin(), bounds.end()); }
+
+}  // namespace
+
+TEST_CASE("packet bounds: a packet far below the maximum waits for its turn, the largest does not") {
+  PacketBounds<double> packets;
+  const std::vector<double> bounds{1, 10, 2, 10};
+  CHECK(evaluate(packets, bounds, 8) == 10);
+  CHECK(packets.due().size() == 4);
+  CHECK(evaluate(packets, bounds, 2) == 10);
+  CHECK(packets.due().size() == 4);  // how fast they grow is known only now
+  for (int steps = 2; steps < PacketBounds<double>::max_age; steps += 2) {
+    CHECK(evaluate(packets, bounds, 2) == 10);
+    CHECK(packets.due() == std::vector<int>{1, 3});
+  }
+  evaluate(packets, bounds, 2);
+  CHECK(packets.due().size() == 4);
+}
+
+TEST_CASE("packet bounds: where one grows fast, others may have") {
+  PacketBounds<double> packets;
+  std::vector<double> bounds{1, 10, 9, 10};
+  for (int k = 0; k < 3; ++k) evaluate(packets, bounds, 1);
+  CHECK(packets.due() == std::vector<int>{1, 3});
+  bounds[1] = 11;  // in one step: two could take 9 to 11 in one
+  evaluate(packets, bounds, 1);
+  bounds[2] = 20;
+  CHECK(evaluate(packets, bounds, 1) == 20);
+  CHECK(packets.due() == std::vector<int>{1, 2, 3});
+}
+
+TEST_CASE("packet bounds: no maximum is missed while none grows faster than one that is watched") {
+  std::mt19937_64 random(3);
+  long looked = 0, all = 0;
+  for (int round = 0; round < 20; ++round) {
+    const std::size_t count = 400;
+    const int fastest = std::uniform_int_distribution<int>(0, static_cast<int>(count) - 1)(random);
+    std::vector<double> bounds(count), growth(count);
+    for (std::size_t p = 0; p < count; ++p) {
+      bounds[p] = test::uniform(random, 0, 100);
+      growth[p] = test::uniform(random, 0, 0.05);
+    }
+    growth[static_cast<std::size_t>(fastest)] = 0.05;
+    PacketBounds<double> packets;
+    packets.watch({fastest});
+    for (int k = 0; k < 200; ++k) {
+      const int steps = std::uniform_int_distribution<int>(1, 4)(random);
+      for (std::size_t p = 0; p < count; ++p) bounds[p] += steps * growth[p];
+      REQUIRE(evaluate(packets, bounds, steps) == maximum(bounds));
+      looked += static_cast<long>(packets.due().size());
+      all += static_cast<long>(count);
+    }
+  }
+  CHECK(looked < all / 4);
+}
+
+TEST_CASE("packet bounds: watched ones are looked at each time, and all after something else is the case") {
+  PacketBounds<double> packets;
+  std::vector<double> bounds{1, 10, 2, 10, 3};
+  packets.watch({0, 4});
+  for (int k = 0; k < 3; ++k) evaluate(packets, bounds, 1);
+  CHECK(packets.due() == std::vector<int>{0, 1, 3, 4});
+  bounds[0] = 30;
+  CHECK(evaluate(packets, bounds, 1) == 30);
+  bounds[1] = bounds[3] = bounds[0] = 5;  // the largest falls: what is known of the rest holds
+  CHECK(evaluate(packets, bounds, 1) == 5);
+  packets.forget();
+  bounds[2] = 70;
+  CHECK(evaluate(packets, bounds, 1) == 70);
+  bounds.assign(2, 4);
+  CHECK(evaluate(packets, bounds, 1) == 4);
+  CHECK(evaluate(packets, {}, 1) == 0);
+}
+
+TEST_CASE("packet bounds: one that is no number is told, until it is one again") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  PacketBounds<double> packets;
+  std::vector<double> bounds{1, 10, 2};
+  for (int k = 0; k < 3; ++k) evaluate(packets, bounds, 1);
+  bounds[1] = nan;
+  CHECK(std::isnan(evaluate(packets, bounds, 1)));
+  bounds[1] = infinity;
+  CHECK(evaluate(packets, bounds, 1) == infinity);
+  bounds[1] = 10;
+  CHECK(evaluate(packets, bounds, 1) == 10);
+  for (int k = 0; k < PacketBounds<double>::max_age + 3; ++k) evaluate(packets, bounds, 1);
+  CHECK(packets.due() == std::vector<int>{1});
+}
+
+TEST_CASE("packet bounds of a body: at first those of all elements, then of those near the largest, by any threads") {
+  std::mt19937_64 random(4);
+  const TetMesh mesh = test::irregular_box(random, {12, 10, 8});
+  std::vector<int> material_of(mesh.tets.size());
+  for (std::size_t t = 0; t < material_of.size(); ++t) material_of[t] = static_cast<int>(t % 2);
+  ElasticBody<double> body(mesh, material_of,
+                           {test::sample_material("neo_hookean"), test::sample_material("mooney_rivlin")},
+                           BodyOptions{true, false});
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) x.insert(x.end(), {X.x(), X.y(), X.z()});
+  const Mat3 stretch = Vec3(-2e-4, 1e-4, 0).asDiagonal();  // a step, and more to one side than to the other
+  PacketBounds<double> of_one, of_three;
+  ThreadTeam one(1), three(3);
+  std::size_t looked = 0, all = 0;
+  for (int k = 0; k < 50; ++k) {
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      Eigen::Map<Vec3>(&x[3 * n]) += mesh.nodes[n].x() / 0.1 * (stretch * mesh.nodes[n]);
+    const double whole = body.frequency_bound(x.data(), one);
+    const double partial = body.frequency_bound(x.data(), one, of_one, 2);
+    CHECK(body.frequency_bound(x.data(), three, of_three, 2) == partial);
+    if (k < 2) CHECK(partial == whole);
+    CHECK(partial == doctest::Approx(whole).epsilon(0.02));
+    looked += of_one.due().size();
+    all += mesh.tets.size() / ElementGroup<double>::lanes;
+  }
+  CHECK(looked < all / 4);
+}
+
+TEST_CASE("packet bounds of a body: elements near a place are watched where nobody would look") {
+  std::mt19937_64 random(5);
+  const TetMesh mesh = test::irregular_box(random, {8, 8, 8});
+  ElasticBody<double> body(mesh, std::vector<int>(mesh.tets.size(), 0), {test::sample_material("neo_hookean")},
+                           BodyOptions{true, false});
+  ThreadTeam team(1);
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) x.insert(x.end(), {X.x(), X.y(), X.z()});
+  const auto all = body.packets_near(Vec3::Zero(), 1.0);
+  CHECK(all.size() == (mesh.tets.size() + ElementGroup<double>::lanes - 1) / ElementGroup<double>::lanes);
+  // A node of an element whose bound is low is pressed against its neighbours between two evaluations.
+  const std::vector<double> bounds = body.element_bounds(x.data());
+  const auto lowest = static_cast<std::size_t>(std::min_element(bounds.begin(), bounds.end()) - bounds.begin());
+  const auto n = static_cast<std::size_t>(mesh.tets[lowest][0]);
+  const auto near = body.packets_near(mesh.nodes[n], 1e-9);
+  REQUIRE_FALSE(near.empty());
+  REQUIRE(near.size() < all.size() / 2);
+  for (const bool watches : {false, true}) {
+    PacketBounds<double> packets;
+    if (watches) packets.watch(near);
+    auto moved = x;
+    for (int k = 0; k < 3; ++k) body.frequency_bound(moved.data(), team, packets, 1);
+    for (int i = 0; i < 3; ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      moved[3 * n + c] += 0.9 * (mesh.nodes[static_cast<std::size_t>(mesh.tets[lowest][1])][i] - x[3 * n + c]);
+    }
+    const double whole = body.frequency_bound(moved.data(), team);
+    const double partial = body.frequency_bound(moved.data(), team, packets, 1);
+    CHECK((partial == whole) == watches);
+  }
+}
+
+}  // namespace heml::packet_bounds_test
