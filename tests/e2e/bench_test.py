@@ -1,6 +1,7 @@
 """End-to-end tests of `heml bench`: rows, tables, pictures, errors. No times are compared. HEML_BINARY is the path of
 the program."""
 import json
+import os
 import unittest
 
 from program import ProgramCase, heml
@@ -120,9 +121,13 @@ class Bench(ProgramCase):
         for row in self.rows_of("threads"):
             kinds.setdefault((row["mesh"], row["precision"], row["name"]), []).append(row)
         self.assertEqual({name.split(", ")[1] for _, _, name in kinds}, {"idle", "one core loaded"})
-        self.assertEqual(len(kinds), 12)  # two bodies, three methods
+        self.assertEqual(len(kinds), 18)  # three bodies, three methods
+        cores = len(os.sched_getaffinity(0))
         for rows in kinds.values():
-            self.assertEqual([row["threads"] for row in rows], list(range(1, len(rows) + 1)))
+            threads = [row["threads"] for row in rows]
+            self.assertEqual(threads, sorted(set(threads)))
+            self.assertEqual(threads[:4], list(range(1, min(cores, 4) + 1)))
+            self.assertEqual(threads[-1], cores)
             for row in rows:
                 self.assertGreater(row["speedup"], 0)
 
