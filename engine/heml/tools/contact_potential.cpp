@@ -10,6 +10,7 @@ constexpr int max_revisions = 16;        // of one solve
 constexpr double nearest_axis = 0.25;    // of a probe's radius: tissue nearer to the axis counts as passing through
 constexpr double stiffest_spring = 1e6;  // times a node's own stiffness
 constexpr double share_of_node = 0.5;    // of a node's stiffness, for each face round it
+constexpr double slip_distance = 0.1;    // of the accepted penetration: how far tissue moves at least before it slips
 constexpr double same_friction = 1e-3;   // of the sum of friction bounds: accepted change
 
 Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
@@ -40,10 +41,10 @@ void ContactPotential::begin(const Vector& x, double time) {
   revisions_ = 0;
   pairs_.clear();
   add_touching_pairs(x);
-  if (first) {  // initial contacts stick until their normal force is known
+  if (first) {  // initial contacts stick until their normal force is known, but for tissue: the faces of a cut part
     find(x);
     for (const ActiveContact& touch : active_)
-      if (surfaces_[touch.surface].friction > 0)
+      if (surfaces_[touch.surface].friction > 0 && surfaces_[touch.surface].shape != ContactSurface::Shape::tissue)
         accepted_.push_back({touch, std::numeric_limits<double>::infinity(), Vec3::Zero()});
     touches_at_.resize(0);
   }
@@ -114,6 +115,12 @@ double ContactPotential::normal_stiffness(const ActiveContact& touch) const {
   return stiffness_factor_[touch.surface] * stiffness_of(touch.point);
 }
 
+/// That of the nodes, or less where a light contact would slip within a distance that is nothing to a solver, so that
+/// its force would jump.
+double ContactPotential::friction_stiffness(const Friction& friction) const {
+  return std::min(stiffness_of(friction.touch.point), friction.max_force / (slip_distance * bound_));
+}
+
 /// Stretch of a point's friction spring, m.
 Vec3 ContactPotential::sliding(const Friction& friction, const Vector& x) const {
   const auto& [surface, point] = friction.touch;
@@ -124,7 +131,7 @@ Vec3 ContactPotential::sliding(const Friction& friction, const Vector& x) const 
 
 Vec3 ContactPotential::friction_force(const Friction& friction, const Vector& x) const {
   const Vec3 slid = sliding(friction, x);
-  const double k = stiffness_of(friction.touch.point), length = slid.norm();
+  const double k = friction_stiffness(friction), length = slid.norm();
   if (k * length <= friction.max_force) return -k * slid;
   return -friction.max_force / length * slid;
 }
@@ -156,7 +163,7 @@ double ContactPotential::value(const Vector& x) {
     sum += normal_stiffness(touch) / 2 * inside * inside;
   }
   for (const Friction& friction : friction_) {
-    const double k = stiffness_of(friction.touch.point), slid = sliding(friction, x).norm();
+    const double k = friction_stiffness(friction), slid = sliding(friction, x).norm();
     sum += k * slid <= friction.max_force ? k / 2 * slid * slid
                                           : friction.max_force * (slid - friction.max_force / (2 * k));
   }
@@ -188,8 +195,8 @@ void ContactPotential::linearise(const Vector& x) {
                       slides_);
   }
   for (const Friction& friction : friction_) {
-    const double k = stiffness_of(friction.touch.point);
-    if (!(k > 0) || friction.max_force == 0) continue;
+    const double k = friction_stiffness(friction);
+    if (!(k > 0)) continue;
     const Vec3 slid = sliding(friction, x);
     const double length = slid.norm();
     const Mat3 plane = tangent_projector(friction.touch.point.normal);
@@ -238,11 +245,13 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
 
 bool ContactPotential::update_lagged(const Vector& x) {
   if (empty() || ++revisions_ > max_revisions) return false;
-  // Of the points that were resisted: what a new pair goes through says nothing about the penalty.
+  // Of the points that were resisted, with the penalty that resisted them: what a new pair goes through says nothing
+  // about forces or penalty.
   find(x);
   std::vector<double> max_penetration(surfaces_.size(), 0.0);
   for (const ActiveContact& touch : active_)
     max_penetration[touch.surface] = std::max(max_penetration[touch.surface], -touch.point.gap);
+  std::vector<Friction> now = friction_of_touches();
   bool changes = add_touching_pairs(x);
   find(x);
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
@@ -250,7 +259,6 @@ bool ContactPotential::update_lagged(const Vector& x) {
       stiffness_factor_[s] *= std::clamp(2 * max_penetration[s] / bound_, 2.0, 32.0);
       changes = true;
     }
-  std::vector<Friction> now = friction_of_touches();
   double sum = 0, difference = 0;
   for (const Friction& friction : now) sum += friction.max_force;
   const bool same_points =
@@ -295,7 +303,7 @@ void ContactPotential::accept(const Vector& x) {
     publish(friction.touch, force);
     // A slipping spring keeps the stretch that its force explains. Closest points of faces move along a probe, so their
     // springs restart at zero.
-    const double k = stiffness_of(friction.touch.point);
+    const double k = friction_stiffness(friction);
     const bool stays = friction.touch.point.count == 1 || friction.touch.point.count == 4;
     friction.stretch = stays && k > 0 ? Vec3(-force / k) : Vec3(Vec3::Zero());
   }

@@ -5,10 +5,11 @@
 //                until no point of a solution penetrates by more than a bound (exterior penalty with continuation:
 //                J. Nocedal, S. Wright, Numerical Optimization, 2006, 17.1). It is defined at any penetration, so a
 //                tool may be placed inside tissue and the solver finds the way out.
-//   tangential   Coulomb friction as a spring of stiffness k from the point of sticking, which slips where its force
-//                would exceed μ N (P. Wriggers, Computational Contact Mechanics, 2006, 5.2): a Huber function, smooth
-//                and convex. N is lagged: where the new solution's N differs, the problem is solved again
-//                (update_lagged()). Springs persist from step to step, so sticking contacts do not creep.
+//   tangential   Coulomb friction as a spring from the point of sticking, which slips where its force would exceed μ N
+//                (P. Wriggers, Computational Contact Mechanics, 2006, 5.2): a Huber function, smooth and convex. Its
+//                stiffness is that of the nodes, or less where a light contact would slip at once. N is lagged: where
+//                the new solution's N differs, the problem is solved again (update_lagged()). Springs persist from
+//                step to step, so sticking contacts do not creep.
 //
 // The set of self-contact pairs (self_contact.hpp) is constant during a solve, so that the energy has no jumps. It
 // holds the pairs that touch when the step begins; pairs that cross in a solution are added and the problem is solved
@@ -100,6 +101,7 @@ class ContactPotential : private ContactPotentialMemory {
   bool add_touching_pairs(const Vector& x);
   double stiffness_of(const ContactPoint& point) const;
   double normal_stiffness(const ActiveContact& touch) const;
+  double friction_stiffness(const Friction& friction) const;
   Vec3 sliding(const Friction& friction, const Vector& x) const;
   Vec3 friction_force(const Friction& friction, const Vector& x) const;
   std::vector<Friction> friction_of_touches() const;

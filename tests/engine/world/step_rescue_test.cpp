@@ -191,9 +191,8 @@ TEST_CASE("step rescue: any number of threads and a reset give the same bits, wi
   }
 }
 
-TEST_CASE(
-    "step rescue: blocks cut through where they bear on each other end the tick, with friction by explicit substeps") {
-  for (const double friction : {0.0, 0.3}) {
+TEST_CASE("step rescue: blocks cut through where they bear on each other end the tick, with friction too") {
+  for (const double friction : {0.0, 0.3, 0.8}) {
     CAPTURE(friction);
     WorldSetup setup = blocks(Integrator::tr_bdf2, friction);
     long iterations = 0;  // of the tick after the cut
@@ -209,12 +208,12 @@ TEST_CASE(
       return world;
     };
     const auto world = run(setup);
-    const bool rubs = friction > 0;
     MESSAGE(iterations << " iterations");
-    CHECK(iterations < (rubs ? 500 : 100));  // with friction two attempts, not seven
+    const bool may_lock = friction > 0.5;  // friction raises the forces that bound it
+    CHECK(iterations < (may_lock ? 500 : 200));
     REQUIRE_FALSE(world->halt());
     CHECK(world->ticks() == 13);
-    CHECK(world->solver_stats().explicit_rescues == (rubs ? 1 : 0));
+    CHECK(world->solver_stats().explicit_rescues <= (may_lock ? 1 : 0));
     const Energies energies = world->energies();
     CHECK(energies.kinetic + energies.elastic < 2e-3);  // what the pieces can fall
     for (const double J : world->volume_ratios()) CHECK(J > 0.3);
