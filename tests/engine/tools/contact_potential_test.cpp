@@ -202,6 +202,43 @@ TEST_CASE("friction holds as a spring up to Coulomb's bound and slips there, wit
   }
 }
 
+TEST_CASE("a light contact slips as far as a tenth of the accepted penetration away, not at once") {
+  std::mt19937_64 random(24);
+  const double k = 1000, friction = 0.4, deep = 1e-3 * bound, slips_at = 0.1 * bound, most = friction * k * deep;
+  Contacts contacts;
+  contacts.boundary.nodes = {0};
+  contacts.tables = {{Vec3::Zero(), Vec3::UnitZ(), friction}};
+  ContactPotential potential(contacts, bound);
+  potential.set_stiffness({k});
+  const auto at = [&](double along) { return positions({Vec3(along, 0, -deep)}); };
+  potential.begin(at(0), 0);
+  while (potential.update_lagged(at(0))) {
+  }
+  for (const double part : {0.3, 0.9, 1.1, 40.0}) {
+    CAPTURE(part);
+    CHECK(forces(potential, at(part * slips_at)).x() == doctest::Approx(-std::min(1.0, part) * most));
+    CHECK(gradient_error(potential, at(part * slips_at), deep / 10) < 1e-6);
+    CHECK(stiffness_error(potential, at(part * slips_at), random_direction(random, 3), deep / 10) < 1e-6);
+  }
+  potential.accept(at(0.5 * slips_at));
+  potential.begin(at(0.5 * slips_at), 0);
+  CHECK(forces(potential, at(0.5 * slips_at)).x() == doctest::Approx(-0.5 * most));
+}
+
+TEST_CASE("friction is bounded by the forces of a solve, not by a penalty that was raised after it") {
+  const double k = 100, friction = 0.4, deep = 10 * bound;
+  Contacts contacts;
+  contacts.boundary.nodes = {0};
+  contacts.tables = {{Vec3::Zero(), Vec3::UnitZ(), friction}};
+  ContactPotential potential(contacts, bound);
+  potential.set_stiffness({k});
+  const auto at = [&](double along) { return positions({Vec3(along, 0, -deep)}); };
+  potential.begin(at(0), 0);
+  REQUIRE(potential.update_lagged(at(0)));
+  CHECK(forces(potential, at(0)).z() > 10 * k * deep);  // it was raised
+  CHECK(forces(potential, at(1)).x() == doctest::Approx(-friction * k * deep));
+}
+
 TEST_CASE("what has slipped stays, what has stuck is pulled back in the next step") {
   const double k = 1000, friction = 0.4, deep = 5e-5, slips_at = friction * deep;
   Contacts contacts;
