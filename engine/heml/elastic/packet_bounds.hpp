@@ -5,9 +5,11 @@
 //   bound:   | 0.3 | 1.0 | 0.9 | 0.4 | ... one a packet, those of all parts of a body in turn
 //   age:     |  14 |   2 |   6 |  30 | ... steps since it was evaluated
 //
-// A packet is due when
-//   2 · age · growth ≥ largest − bound, growth the fastest that any bound was seen to grow, a step: so always the
-//   largest; its age is max_age; it is watched: something acts on its elements, whose bounds may grow without notice.
+// A packet is due
+// - where 2 · age · growth ≥ largest − bound, growth the fastest that any bound was seen to grow, a step: so always the
+//   largest;
+// - at max_age;
+// - where it is watched: something acts on its elements, whose bounds may grow without notice.
 #include <cstddef>
 #include <cstdint>
 #include <utility>

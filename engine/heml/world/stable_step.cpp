@@ -19,14 +19,20 @@ constexpr int steps_between_bounds_at_first = 8;
 // Elements so near to what a hand holds are evaluated each time, whatever their bounds were.
 constexpr double watched_spacings = 1;
 
+/// Whether the elements watched are those of the grasps there are.
+template <class Real>
+bool watches_grasps(const Simulation<Real>& s) {
+  return std::equal(s.grasps.begin(), s.grasps.end(), s.limit.watched.begin(), s.limit.watched.end(),
+                    [](const GraspSpring<Real>& grasp, long serial) { return grasp.id().serial == serial; });
+}
+
 /// Chooses the elements that hands deform.
 template <class Real>
 void watch_grasps(Simulation<Real>& s) {
-  std::vector<long> serials;
-  for (const auto& grasp : s.grasps) serials.push_back(grasp.id().serial);
-  if (serials == s.limit.watched) return;
   std::vector<int> packets;
+  s.limit.watched.clear();
   for (const auto& grasp : s.grasps) {
+    s.limit.watched.push_back(grasp.id().serial);
     const Vec3& place = s.model->mesh.nodes[static_cast<std::size_t>(grasp.center())];
     const double radius = static_cast<double>(grasp.radius()) + watched_spacings * s.model->spacing;
     const std::vector<int> near = s.acting_body().packets_near(place, radius);
@@ -36,7 +42,6 @@ void watch_grasps(Simulation<Real>& s) {
   packets.erase(std::unique(packets.begin(), packets.end()), packets.end());
   s.damping_bounds.watch(packets);
   s.frequency_bounds.watch(std::move(packets));
-  s.limit.watched = std::move(serials);
 }
 
 template <class Real>
@@ -70,8 +75,7 @@ void evaluate_bounds(Simulation<Real>& s) {
 
 template <class Real>
 void find_stable_step(Simulation<Real>& s) {
-  s.limit.watched.clear();  // elements may have other places
-  watch_grasps(s);
+  watch_grasps(s);  // also for the same grasps: elements may have other places
   forget_bounds(s);
   evaluate_bounds(s);
   s.limit.interval = steps_between_bounds_at_first;
@@ -81,7 +85,7 @@ template <class Real>
 void update_stable_step(Simulation<Real>& s) {
   const double before = s.limit.stable;
   const int steps = s.limit.steps_since_bound, interval = s.limit.interval;
-  watch_grasps(s);
+  if (!watches_grasps(s)) watch_grasps(s);
   if (s.contacts.probe) forget_bounds(s);  // it may touch any element
   evaluate_bounds(s);
   const double change = std::abs(s.limit.stable / before - 1);

@@ -66,6 +66,18 @@ Vector random_direction(std::mt19937_64& random, Eigen::Index size) {
   return dx.normalized();
 }
 
+/// A node of stiffness k, N/m, at a table on z = 0 with friction.
+struct NodeOnTable {
+  Contacts contacts;
+  ContactPotential potential{contacts, bound};
+
+  NodeOnTable(double k, double friction) {
+    contacts.boundary.nodes = {0};
+    contacts.tables = {{Vec3::Zero(), Vec3::UnitZ(), friction}};
+    potential.set_stiffness({k});
+  }
+};
+
 Eigen::MatrixXd matrix_of_products(ContactPotential& potential, const Vector& x) {
   Eigen::MatrixXd K(x.size(), x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) K.col(i) = product(potential, x, Vector::Unit(x.size(), i));
@@ -180,11 +192,8 @@ TEST_CASE("blocks of the stiffness are its products, those of pairs within eleme
 TEST_CASE("friction holds as a spring up to Coulomb's bound and slips there, with the slope of one smooth energy") {
   std::mt19937_64 random(23);
   const double k = 1000, friction = 0.4, deep = 5e-5;  // less than the bound, so that nothing becomes stiffer
-  Contacts contacts;
-  contacts.boundary.nodes = {0};
-  contacts.tables = {{Vec3::Zero(), Vec3::UnitZ(), friction}};
-  ContactPotential potential(contacts, bound);
-  potential.set_stiffness({k});
+  NodeOnTable on(k, friction);
+  ContactPotential& potential = on.potential;
   const Vector x = positions({Vec3(0, 0, -deep)});
   potential.begin(x, 0);
   CHECK(potential.update_lagged(x));  // now the weight is known
@@ -205,11 +214,8 @@ TEST_CASE("friction holds as a spring up to Coulomb's bound and slips there, wit
 TEST_CASE("a light contact slips as far as a tenth of the accepted penetration away, not at once") {
   std::mt19937_64 random(24);
   const double k = 1000, friction = 0.4, deep = 1e-3 * bound, slips_at = 0.1 * bound, most = friction * k * deep;
-  Contacts contacts;
-  contacts.boundary.nodes = {0};
-  contacts.tables = {{Vec3::Zero(), Vec3::UnitZ(), friction}};
-  ContactPotential potential(contacts, bound);
-  potential.set_stiffness({k});
+  NodeOnTable on(k, friction);
+  ContactPotential& potential = on.potential;
   const auto at = [&](double along) { return positions({Vec3(along, 0, -deep)}); };
   potential.begin(at(0), 0);
   while (potential.update_lagged(at(0))) {
@@ -227,11 +233,8 @@ TEST_CASE("a light contact slips as far as a tenth of the accepted penetration a
 
 TEST_CASE("friction is bounded by the forces of a solve, not by a penalty that was raised after it") {
   const double k = 100, friction = 0.4, deep = 10 * bound;
-  Contacts contacts;
-  contacts.boundary.nodes = {0};
-  contacts.tables = {{Vec3::Zero(), Vec3::UnitZ(), friction}};
-  ContactPotential potential(contacts, bound);
-  potential.set_stiffness({k});
+  NodeOnTable on(k, friction);
+  ContactPotential& potential = on.potential;
   const auto at = [&](double along) { return positions({Vec3(along, 0, -deep)}); };
   potential.begin(at(0), 0);
   REQUIRE(potential.update_lagged(at(0)));
@@ -241,17 +244,14 @@ TEST_CASE("friction is bounded by the forces of a solve, not by a penalty that w
 
 TEST_CASE("what has slipped stays, what has stuck is pulled back in the next step") {
   const double k = 1000, friction = 0.4, deep = 5e-5, slips_at = friction * deep;
-  Contacts contacts;
-  contacts.boundary.nodes = {0};
-  contacts.tables = {{Vec3::Zero(), Vec3::UnitZ(), friction}};
-  ContactPotential potential(contacts, bound);
-  potential.set_stiffness({k});
+  NodeOnTable on(k, friction);
+  ContactPotential& potential = on.potential;
   const auto at = [&](double along) { return positions({Vec3(along, 0, -deep)}); };
   potential.begin(at(0), 0);
   while (potential.update_lagged(at(0))) {
   }
   potential.accept(at(0.5 * slips_at));
-  CHECK(contacts.report_of(0).force.x() == doctest::Approx(-0.5 * friction * k * deep));
+  CHECK(on.contacts.report_of(0).force.x() == doctest::Approx(-0.5 * friction * k * deep));
   potential.begin(at(0.5 * slips_at), 0);
   CHECK(forces(potential, at(0.5 * slips_at)).x() == doctest::Approx(-0.5 * friction * k * deep));
   potential.accept(at(7 * slips_at));
