@@ -8,6 +8,7 @@ namespace heml {
 namespace {
 
 constexpr double still_ridge = -0.02, still_out = 0.3;  // bend (sine) and margin of normals of edges that bear
+constexpr double still_within = 0.1;                    // of a face that bears: how far the crossing may be outside
 constexpr double parallel = 0.3;         // sine: edges closer to parallel are left to node and face pairs
 constexpr double max_penetration = 0.5;  // of an element's height: deeper pairs did not enter through this face
 
@@ -32,13 +33,14 @@ void SelfContact::find(const std::vector<ContactPair>& held) {
   };
   if (!is_finite(skin_.x()) || !is_finite(to_)) return;  // the step detects the failure itself
   double moved = std::max(spread(filtered_.reference, skin_.x()), spread(filtered_.reference, to_));
-  if (!(moved <= filtered_.allowance) || woken_steps_ > lasting) {
+  if (!(moved <= filtered_.allowance) || woken_steps_ > lasting || is_too_wide()) {
     update_candidates();
     moved = spread(skin_.x(), to_);
   }
   const double reach = reach_of(moved);
   if (!(reach <= awake_reach_ && spread(woken_.reference, skin_.x()) <= woken_.allowance)) wake_candidates(moved);
   ++woken_steps_;
+  tests_ += static_cast<long>(awake_.size());
   for (const auto& [distance, nodes, candidate, is_certain] : awake_) {
     ++tested_count_;
     if (distance > reach || !(is_certain || can_meet(candidate))) continue;
@@ -52,22 +54,29 @@ void SelfContact::find(const std::vector<ContactPair>& held) {
   add_held(held);
 }
 
-/// Adds pairs of edges that have borne a load and have lost nothing but their bend. A load flattens ridges; if that
-/// ended their contact, they would fall in and be pushed out in turn, step by step.
+/// Adds pairs that have borne a load and have lost nothing but the bend of their edges, or lie just beside their face.
+/// A load flattens ridges and shifts nodes; if that ended their contact, they would fall in and be pushed out in turn,
+/// step by step.
 void SelfContact::add_held(const std::vector<ContactPair>& held) {
   const std::size_t found = contacts_.size();
   for (const ContactPair& pair : held) {
-    if (pair.side == 0) continue;
     const auto end = contacts_.begin() + static_cast<std::ptrdiff_t>(found);
     const auto place = std::lower_bound(contacts_.begin(), end, pair);
     if (place != end && *place == pair) continue;
     std::array<int, 4> local;
     for (std::size_t k = 0; k < 4; ++k) local[k] = skin_.index_of(pair.nodes[k]);
-    const Candidate candidate{true, skin_.edge_between(local[0], local[1]), skin_.edge_between(local[2], local[3])};
     const std::array<Vec3, 4> from{skin_.x()[at(local[0])], skin_.x()[at(local[1])], skin_.x()[at(local[2])],
                                    skin_.x()[at(local[3])]};
     const auto crossing = crossing_of(pair.side, from);
-    if (!crossing || !crossing->is_within(pair.side, slack) || crossing->gap() > touch_gap * edge_) continue;
+    if (!crossing || crossing->gap() > touch_gap * edge_) continue;
+    if (pair.side == 0) {
+      if (!crossing->is_within(0, still_within)) continue;
+      contacts_.push_back(pair);
+      points_.push_back(point_of(pair, *crossing));
+      continue;
+    }
+    const Candidate candidate{true, skin_.edge_between(local[0], local[1]), skin_.edge_between(local[2], local[3])};
+    if (!crossing->is_within(pair.side, slack)) continue;
     if (skin_.bend(candidate.first) < still_ridge || skin_.bend(candidate.second) < still_ridge) continue;
     if (!is_out_of_both(candidate, from, *crossing, still_out)) continue;
     if (crossing->height < 0 && -crossing->gap() >= max_penetration * height_behind(candidate)) continue;

@@ -42,7 +42,8 @@ class SelfContact {
 
   /// Pairs that touch or cross while nodes move in straight lines from from(node) to to(node), m. Ascending; valid
   /// until the next call. Empty where a position is not finite. held: pairs that bore a load in the last step,
-  /// ascending; edges among them stay in contact until their bend is clearly gone.
+  /// ascending; edges among them stay in contact until their bend is clearly gone, faces until the node is clearly
+  /// outside.
   template <class From, class To>
   const std::vector<ContactPair>& contacts_between(const From& from, const To& to,
                                                    const std::vector<ContactPair>& held = {}) {
@@ -83,6 +84,7 @@ class SelfContact {
   struct CandidateSet {
     Positions reference;   ///< m; empty: none yet
     double allowance = 0;  ///< m
+    double step = 0;       ///< m, how far nodes moved in the step it was made for
   };
   static constexpr double touch_gap = 1e-3;  // of an edge: nearer pairs touch, since a step may push them together
   static constexpr double slack = 0.01;      // of a face or an edge: margin, so that nothing slips between neighbours
@@ -102,6 +104,8 @@ class SelfContact {
   // self_contact_search.cpp
   double spread(const Positions& reference, const Positions& x) const;
   double reach_of(double allowance) const;
+  bool is_too_wide();
+  bool is_far_below(double step, const CandidateSet& set) const;
   void update_candidates();
   void broad_phase(double step);
   void filter_candidates(double step);
@@ -126,6 +130,7 @@ class SelfContact {
   std::vector<AwakeCandidate> awake_;        ///< and of these, valid within awake_reach_, in the order of pairs
   std::vector<ContactPair> contacts_;
   std::vector<ContactPoint> points_;  ///< of contacts_
+  long tests_ = 0;                    ///< since the filter, or since is_too_wide() asked last
   long broad_phase_count_ = 0, filter_count_ = 0, tested_count_ = 0;
 };
 

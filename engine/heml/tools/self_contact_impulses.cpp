@@ -20,9 +20,9 @@ void SelfContactImpulses<Real>::find_pairs(SelfContact& contact, double h, const
   friction_ = contact.friction();
   touches_.clear();
   rows_.clear(inverse_mass.size());
-  held_.clear();
+  held_.clear();  // edges alone: explicit steps are short, and a node beside its face soon meets the next one
   for (const RememberedPair& pair : known)
-    if (pair.anchor.idle == 0) held_.push_back(pair.pair);
+    if (pair.anchor.idle == 0 && pair.pair.side != 0) held_.push_back(pair.pair);
   auto next = known.begin();
   const auto& pairs =
       contact.contacts_between([&](int n) { return at(before, n); }, [&](int n) { return at(after, n); }, held_);

@@ -13,6 +13,7 @@ constexpr double beside = 0.25;  // of a face or an edge: margin within which ov
 constexpr double min_allowance = 0.15, max_allowance = 1;   // of an edge
 constexpr double min_filtered = 0.02, max_filtered = 0.15;  // of an edge
 constexpr double min_woken = 1e-4, max_woken = 0.05;        // of an edge
+constexpr long tests_per_candidate = 4;                     // after which to find candidates anew is cheap
 constexpr int brief = 32;                                   // steps: candidates awake for less are given more room
 constexpr double search_steps = 16, filter_steps = 8;       // as long as this one: for which candidates are found
 constexpr double same_overlap = 1e-6;                       // of an edge: smaller overlaps at rest are round-off
@@ -40,6 +41,19 @@ double SelfContact::spread(const Positions& reference, const Positions& x) const
   return std::sqrt(max_square);
 }
 
+/// Whether candidates were found for a step much longer than this one, and have been tested so often that to find them
+/// anew costs little beside that: after an impact, say.
+bool SelfContact::is_too_wide() {
+  if (tests_ < tests_per_candidate * static_cast<long>(broad_candidates_.size())) return false;
+  tests_ = 0;
+  const double step = spread(skin_.x(), to_);
+  return step > 0 && is_far_below(step, filtered_);
+}
+
+bool SelfContact::is_far_below(double step, const CandidateSet& set) const {
+  return step < set.step / 4 && set.allowance > min_allowance * edge_;
+}
+
 /// Filters the broad candidates, or finds them again where this step leaves what they are valid for. The filter's
 /// allowance ends where that of the broad phase does, so find() need not check both.
 void SelfContact::update_candidates() {
@@ -50,7 +64,8 @@ void SelfContact::update_candidates() {
     awake_reach_ = 0;
     return;
   }
-  if (!(spread(searched_.reference, skin_.x()) + 1.5 * step <= searched_.allowance)) broad_phase(step);
+  if (!(spread(searched_.reference, skin_.x()) + 1.5 * step <= searched_.allowance) || is_far_below(step, searched_))
+    broad_phase(step);
   filter_candidates(step);
 }
 
@@ -62,6 +77,7 @@ double SelfContact::reach_of(double allowance) const { return 2 * allowance + (t
 void SelfContact::broad_phase(double step) {
   ++broad_phase_count_;
   searched_.reference = skin_.x();
+  searched_.step = step;
   searched_.allowance =
       std::max(1.5 * step, std::clamp(search_steps * step, min_allowance * edge_, max_allowance * edge_));
   const double reach = reach_of(searched_.allowance);
@@ -161,6 +177,8 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
 void SelfContact::filter_candidates(double step) {
   ++filter_count_;
   filtered_.reference = skin_.x();
+  filtered_.step = step;
+  tests_ = 0;
   filtered_.allowance =
       std::min(searched_.allowance - spread(searched_.reference, skin_.x()),
                std::max(1.5 * step, std::clamp(filter_steps * step, min_filtered * edge_, max_filtered * edge_)));

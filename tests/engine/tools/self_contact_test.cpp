@@ -297,6 +297,56 @@ TEST_CASE("a pair that touches within its face is in contact, one that touches t
     }
 }
 
+TEST_CASE("a face that bore a load stays in contact while the node is just beside it") {
+  TetMesh mesh;
+  add_tet(mesh, {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0), Vec3(0, 0, -2)});
+  add_tet(mesh, {Vec3(0, 0, 3), Vec3(-1, -1, 5), Vec3(1, -1, 5), Vec3(0, 1, 5)});
+  const auto place = [&mesh](double y, double gap) {
+    return [&mesh, y, gap](int n) -> Vec3 {
+      return mesh.nodes[static_cast<std::size_t>(n)] + (n < 4 ? Vec3(0, 0, 0) : Vec3(0, y, gap - 3));
+    };
+  };
+  SelfContact contact({}, mesh);
+  const std::vector<ContactPair> borne = contact.contacts_between(place(0.5, -1e-4), place(0.5, -1e-4));
+  REQUIRE(borne.size() == 1);
+  REQUIRE(borne[0].side == 0);
+  CHECK(contact.contacts_between(place(1.1, -1e-4), place(1.1, -1e-4)).empty());
+  CHECK(contact.contacts_between(place(1.1, -1e-4), place(1.1, -1e-4), borne) == borne);
+  CHECK(contact.contacts_between(place(1.5, -1e-4), place(1.5, -1e-4), borne).empty());  // clearly outside
+  CHECK(contact.contacts_between(place(1.1, 0.1), place(1.1, 0.1), borne).empty());      // gone up
+}
+
+TEST_CASE("after a long step the many candidates that it woke are let go of again, and no pair is missed") {
+  std::mt19937_64 random(33);
+  Soup soup(random, 40, 1.8);
+  SelfContact contact({}, soup.mesh);
+  const auto place = [](const Places& x) { return [&x](int n) { return x[static_cast<std::size_t>(n)]; }; };
+  std::size_t met = 0;
+  const auto tested_in_a_step = [&](double by = 1e-4) {
+    soup.move(random, by);
+    const long before = contact.tested_count();
+    const auto& kept = contact.contacts_between(place(soup.from), place(soup.to));
+    SelfContact fresh({}, soup.mesh);
+    const auto& found = fresh.contacts_between(place(soup.from), place(soup.to));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (fresh.contact_points()[i].gap < -0.1) continue;  // so deep it is found only where a step is as long
+      CHECK(std::binary_search(kept.begin(), kept.end(), found[i]));
+      ++met;
+    }
+    return contact.tested_count() - before;
+  };
+  for (int step = 0; step < 100; ++step) tested_in_a_step();
+  const long at_rest = tested_in_a_step();
+  tested_in_a_step(1);
+  const long after = tested_in_a_step();
+  for (int step = 0; step < 100; ++step) tested_in_a_step();
+  const long in_the_end = tested_in_a_step();
+  MESSAGE(at_rest << " candidates tested in a step, " << after << " after a long one, in the end " << in_the_end);
+  CHECK(after > 4 * at_rest);
+  CHECK(in_the_end < 2 * at_rest);
+  CHECK(met > 1000);
+}
+
 TEST_CASE("tetrahedra at rest are searched once, and only near pairs are tested") {
   std::mt19937_64 random(8);
   Soup soup(random, 30, 1.6);
