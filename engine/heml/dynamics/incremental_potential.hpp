@@ -37,6 +37,7 @@ class IncrementalPotential final : public Objective {
   void linearise(const Vector& x, Projection projection = Projection::none) override {
     potential_.linearise(x, projection);
   }
+  void step_taken(double part) override { potential_.step_taken(part); }
   void product(const Vector& dx, Vector& out) override {
     potential_.product(dx, out);
     out.array() += a_ * mass_.array() * dx.array();
@@ -51,6 +52,7 @@ class IncrementalPotential final : public Objective {
     for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_of_node(mass_, n));
     return true;
   }
+  void add_rank_one_terms(std::vector<RankOneTerm>& terms) const override { potential_.add_rank_one_terms(terms); }
 
  private:
   Objective& potential_;

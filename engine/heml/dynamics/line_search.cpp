@@ -31,6 +31,7 @@ bool line_search(Objective& objective, const Vector& d, SearchPoint& at) {
       if (trial.within_round_off && !reduces_slope) continue;  // values are round-off
     }
     std::swap(at, trial);
+    objective.step_taken(s);
     return true;
   }
   return false;

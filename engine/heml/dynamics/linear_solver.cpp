@@ -34,6 +34,7 @@ LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std
       max_iterations_(max_cg_iterations),
       team_(team),
       instruction_set_(instruction_set),
+      update_(free, team),
       modulus_(modulus) {}
 
 void LinearSolver::limit_iterations(int iterations) {
@@ -92,8 +93,13 @@ LinearSolver::Definiteness LinearSolver::prepare(Objective& objective) {
       invert_blocks();
       return Definiteness::positive;
     case Preconditioner::scalar:
-    case Preconditioner::multilevel:
-      return factorise_scalar() ? Definiteness::positive : Definiteness::none;
+    case Preconditioner::multilevel: {
+      if (!factorise_scalar()) return Definiteness::none;
+      std::vector<RankOneTerm> terms;
+      objective.add_rank_one_terms(terms);
+      update_.set(*scalar_, terms);
+      return Definiteness::positive;
+    }
   }
   return Definiteness::none;
 }
@@ -102,7 +108,7 @@ std::size_t LinearSolver::bytes() const {
   std::size_t sum = bytes_of(divisors_) + bytes_of(inverse_blocks_, modulus_);
   if (matrix_) sum += matrix_->bytes();
   if (factor_) sum += factor_->bytes();
-  if (scalar_) sum += scalar_->bytes();
+  if (scalar_) sum += scalar_->bytes() + update_.bytes();
   if (single_precision_cg_) sum += single_precision_cg_->bytes();
   return sum;
 }
@@ -123,6 +129,7 @@ bool LinearSolver::keep_elements(const TetMesh& mesh, const std::vector<int>& el
   for (std::size_t row = 0; row < free_.node.size(); ++row)
     if (!(mass_of_node(mass_, free_.node[row]) > 0)) bare.push_back(row);
   scalar_->exclude_rows(std::move(bare));
+  update_.reset();
   outdated_ = true;
   return true;
 }
@@ -134,6 +141,7 @@ std::shared_ptr<PreconditionerBuild> LinearSolver::preconditioner_build() const 
 
 void LinearSolver::adopt(PreconditionerBuild& work) {
   scalar_ = work.release();
+  update_.reset();
   built_for_elements_ = modulus_.size();
   outdated_ = false;
   ++counts_.factorisations;
@@ -158,6 +166,7 @@ void LinearSolver::restore(const Snapshot& snapshot) {
   built_for_elements_ = snapshot.built_for_elements;
   outdated_ = snapshot.outdated;
   counts_ = snapshot.counts;
+  update_.reset();
   if (snapshot.hierarchy) {
     scalar_ = std::make_unique<SmoothedAggregation>(snapshot.hierarchy, team_);
     scalar_->exclude_rows(snapshot.excluded_rows);
@@ -181,6 +190,7 @@ bool LinearSolver::factorise_scalar() {
   }
   if (factored_a_ >= 0 && a_ <= max_inertia_ratio * factored_a_ && factored_a_ <= max_inertia_ratio * a_) return true;
   ++counts_.factorisations;
+  update_.reset();
   const bool done = scalar_->set_inertia(a_);
   factored_a_ = done ? a_ : -1;
   return done;
@@ -191,7 +201,8 @@ bool LinearSolver::precondition(const Vector& r, Vector& z) {
   if (r.isZero(0)) return true;
   assert(preconditioner_ == Preconditioner::scalar || preconditioner_ == Preconditioner::multilevel);
   if (!factorise_scalar()) return false;
-  apply(r, z);
+  scalar_->apply(r, z);
+  free_.clear_held(z);
   return true;
 }
 
@@ -213,6 +224,7 @@ void LinearSolver::apply(const Vector& r, Vector& z) {
   if (preconditioner_ == Preconditioner::cholesky) return apply_factor(r, z);
   if (scalar_) {
     scalar_->apply(r, z);
+    update_.correct(z);
     return free_.clear_held(z);
   }
   z.setZero(r.size());
@@ -229,7 +241,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
   const double enough = tolerance * r.norm();
   if (!objective.is_symmetric()) return biconjugate_gradients(objective, r, enough, d);
   if (supports_single_precision(objective, tolerance))
-    return single_precision_cg_->solve(*scalar_, r, tolerance, max_iterations_, d, counts_.iterations);
+    return single_precision_cg_->solve(*scalar_, update_, r, tolerance, max_iterations_, d, counts_.iterations);
   if (sign == Definiteness::positive) return conjugate_gradients(objective, r, enough, d);
   apply_factor(r, d);
   return false;

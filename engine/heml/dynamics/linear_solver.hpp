@@ -114,6 +114,7 @@ class LinearSolver {
   std::unique_ptr<SupernodalLdlt> factor_;
   Vector divisors_;  ///< |D|, in the factor's order
   std::unique_ptr<SmoothedAggregation> scalar_;
+  LowRankUpdate update_;  ///< of scalar_, what is no elements'
   std::unique_ptr<SinglePrecisionCG> single_precision_cg_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;

@@ -14,6 +14,8 @@ constexpr double round_off_fraction = 1e-3;
 constexpr double slow_at_round_off = 0.5;
 // Where no step lowers Φ, but one should by less than this many times its round-off, that may be why.
 constexpr double near_round_off = 1e3;
+// Of the residual at which a solve has converged: no linear solve needs to leave less.
+constexpr double last_residual = 0.1;
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// Detects that round-off ends progress. Where a step changes Φ by round-off only, several steps together must lower Φ,
@@ -89,8 +91,9 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
     }
     if (result.iterations >= options.max_iterations) return finish(NewtonResult::Status::out_of_iterations);
     ++result.iterations;
-    const double tolerance = std::clamp(options.linear_tolerance * at.r.norm() / first, options.min_linear_tolerance,
-                                        options.linear_tolerance);
+    const double tolerance = std::clamp(
+        std::max(options.linear_tolerance * at.r.norm() / first, last_residual * stop.limit / result.measure),
+        options.min_linear_tolerance, options.linear_tolerance);
     const double before = at.r.norm();
     objective.linearise(at.x);
     const bool positive = linear.solve(objective, at.r, tolerance, d);

@@ -11,6 +11,13 @@ namespace heml {
 
 class BsrMatrix;
 
+/// A part g gᵀ of a stiffness, between few nodes.
+struct RankOneTerm {
+  int count;                 ///< of nodes
+  std::array<int, 4> nodes;  ///< all different
+  std::array<Vec3, 4> g;     ///< √(N/m)
+};
+
 using Vector = Eigen::VectorXd;  ///< 3 #V: node after node
 
 /// The mass (kg) of a node that is free in one direction at least. masses: 3 #V, kg, 0 where not free.
@@ -34,15 +41,19 @@ class Objective {
   virtual bool inverts_elements(const Vector&, const Vector&) const { return false; }
   /// Evaluates K = −∂r/∂x at x, or its projection, for the calls below until the next linearise().
   virtual void linearise(const Vector& x, Projection projection = Projection::none) = 0;
+  /// Since linearise(), this part of the step that K suggests was taken.
+  virtual void step_taken(double) {}
   /// out = K dx, N; 0 at nodes that are not free, where dx may be nonzero.
   virtual void product(const Vector& dx, Vector& out) = 0;
   /// Whether K is symmetric, as it is if the forces have a potential.
   virtual bool is_symmetric() const { return true; }
   /// Adds the blocks of K between free nodes; the symmetric part or an approximation will do.
   virtual void add_stiffness(BlockMatrix& matrix) = 0;
-  /// Adds K between free nodes to a matrix in float. Returns false if K is not symmetric or does not fit the sparsity
-  /// pattern.
+  /// Adds K between free nodes, without its rank-one terms, to a matrix in float. Returns false if K is not symmetric
+  /// or does not fit the sparsity pattern.
   virtual bool add_stiffness_single_precision(BsrMatrix&) { return false; }
+  /// The parts of K that couple few nodes each and are no elements'.
+  virtual void add_rank_one_terms(std::vector<RankOneTerm>&) const {}
 };
 
 }  // namespace heml

@@ -48,8 +48,8 @@ double SinglePrecisionCG::dot(const MultiVector& a, const MultiVector& b) {
   return sum([&](std::size_t row) -> Eigen::Array4f { return a[row] * b[row]; });
 }
 
-bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector& r, double tolerance,
-                              int max_iterations, Vector& d, long& iterations) {
+bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, LowRankUpdate& update, const Vector& r,
+                              double tolerance, int max_iterations, Vector& d, long& iterations) {
   const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps values in float's range
   const auto place = [&](std::size_t row) { return 3 * free_.node[row]; };
   double square = sum([&](std::size_t row) -> Eigen::Array4f {
@@ -62,6 +62,7 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector&
   double progress = 0;
   for (int k = 0; k < max_iterations && square > enough; ++k) {
     preconditioner.apply(left_, z_);
+    update.correct(z_);
     for (const int row : held_rows_) z_[static_cast<std::size_t>(row) / 3][row % 3] = 0;
     const double next = dot(left_, z_);
     const auto turn = static_cast<float>(k > 0 ? next / progress : 0);
@@ -70,6 +71,7 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector&
       for (std::size_t row = begin; row < end; ++row) p_[row] = k > 0 ? z_[row] + turn * p_[row] : z_[row];
     });
     K_.multiply(p_, q_, team_);
+    update.add_product(p_, q_);
     ++iterations;
     const double curvature = dot(p_, q_);
     positive = curvature > 0 && progress > 0;

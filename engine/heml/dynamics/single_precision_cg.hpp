@@ -1,7 +1,7 @@
 #pragma once
 // K d = r by preconditioned conjugate gradients in float, on the assembled K: enough for Newton iterations, which need
 // two to four digits of the linear solution. Positions, residuals and Φ stay in double.
-#include <heml/dynamics/smoothed_aggregation.hpp>
+#include <heml/dynamics/low_rank_update.hpp>
 
 namespace heml {
 
@@ -26,8 +26,8 @@ class SinglePrecisionCG {
   /// Solves K d = r (3 #V; d = 0 at nodes that are not free) to a residual of tolerance ‖r‖. Returns whether all
   /// curvature met was positive; if not, d is the iterate before, or the first direction. Adds the number of iterations
   /// to `iterations`.
-  bool solve(SmoothedAggregation& preconditioner, const Vector& r, double tolerance, int max_iterations, Vector& d,
-             long& iterations);
+  bool solve(SmoothedAggregation& preconditioner, LowRankUpdate& update, const Vector& r, double tolerance,
+             int max_iterations, Vector& d, long& iterations);
 
   std::size_t bytes() const { return K_.bytes() + bytes_of(d_, left_, p_, q_, z_) + bytes_of(sums_); }
 
