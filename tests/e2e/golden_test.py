@@ -9,7 +9,9 @@ the scenes of the same names, on a processor with AVX2 and without AVX-512:
     for s in kidney_pull liver_cut kidney_on_table twist; do build/release/app/heml replay assets/scenes/$s.json --record tests/golden/$s.jsonl; done
     for s in kidney_pull liver_cut twist; do python3 tests/golden/record.py build/release/app/heml assets/scenes/$s.json tests/golden/${s}_portable.jsonl; done
 
-play_by_hand.py records kidney_by_hand in a window.
+play_by_hand.py records kidney_by_hand in a window. kidney_pull and twist stay in format 1: take "format", "kernel_revision"
+and "build" out of their first line, "checkpoints" and "hash" out of the last. Where the bits of one stay, its "kernel_revision"
+alone is set to the new one.
 """
 import json
 import unittest

@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <heml/tools/contact_potential.hpp>
@@ -45,10 +46,11 @@ void ContactPotential::begin(const Vector& x, double time) {
     find(x);
     for (const ActiveContact& touch : active_)
       if (surfaces_[touch.surface].friction > 0 && surfaces_[touch.surface].shape != ContactSurface::Shape::tissue)
-        accepted_.push_back({touch, std::numeric_limits<double>::infinity(), Vec3::Zero()});
+        accepted_.push_back({touch, std::numeric_limits<double>::infinity(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
     touches_at_.resize(0);
   }
   friction_ = accepted_;
+  step_taken_ = 0;
 }
 
 void ContactPotential::reset() {
@@ -57,12 +59,14 @@ void ContactPotential::reset() {
   accepted_.clear();
   surfaces_.clear();
   pairs_.clear();
+  bearing_.clear();
   touches_at_.resize(0);
 }
 
 void ContactPotential::set_time(double time) {
   if (stiffness_factor_.empty()) return;  // no step has begun
   friction_ = accepted_;
+  step_taken_ = 0;
   surfaces_ = contacts_.surfaces(time);
   touches_at_.resize(0);
   revisions_ = 0;
@@ -91,7 +95,7 @@ bool ContactPotential::add_touching_pairs(const Vector& x) {
   if (!contacts_.tissue || !with_tissue_) return false;
   const auto before = [&](int n) { return at(x_before_, n); };
   const auto now = [&](int n) { return at(x, n); };
-  const auto& met = contacts_.tissue->contacts_between(before, now);
+  const auto& met = contacts_.tissue->contacts_between(before, now, bearing_);
   std::vector<ContactPair> added, all;
   std::set_difference(met.begin(), met.end(), pairs_.begin(), pairs_.end(), std::back_inserter(added));
   const bool inside = std::any_of(added.begin(), added.end(), [&](const ContactPair& pair) {
@@ -177,6 +181,25 @@ void ContactPotential::add_forces(const Vector& x, Vector& f) {
   for (const Friction& friction : friction_) add(friction.touch.point, friction_force(friction, x), f);
 }
 
+/// Follows the duals to x, by the linear model of the last linearise() (Chan, Golub, Mulet 1999): what is linearised is
+/// not force = f s/|s| but |s| force = f s.
+void ContactPotential::update_duals(const Vector& x) {
+  for (Friction& friction : friction_) {
+    const Vec3 slid = sliding(friction, x), moved = slid - friction.slid;
+    const double k = friction_stiffness(friction), length = friction.slid.norm();
+    if (step_taken_ > 0 && k > 0) {
+      if (k * length <= friction.max_force)
+        friction.dual += k * moved + step_taken_ * (k * friction.slid - friction.dual);
+      else
+        friction.dual += (friction.max_force * moved - friction.dual * friction.slid.dot(moved) / length) / length +
+                         step_taken_ * (friction.max_force / length * friction.slid - friction.dual);
+    }
+    if (const double size = friction.dual.norm(); size > friction.max_force) friction.dual *= friction.max_force / size;
+    friction.slid = slid;
+  }
+  step_taken_ = 0;
+}
+
 void ContactPotential::linearise(const Vector& x) {
   find(x);
   x_seen_ = x;
@@ -194,17 +217,20 @@ void ContactPotential::linearise(const Vector& x) {
       add_face_slides(surfaces_[touch.surface], touch.point, {at(x, nodes[0]), at(x, nodes[1]), at(x, nodes[2])}, force,
                       slides_);
   }
+  update_duals(x);
   for (const Friction& friction : friction_) {
     const double k = friction_stiffness(friction);
     if (!(k > 0)) continue;
     const Vec3 slid = sliding(friction, x);
     const double length = slid.norm();
     const Mat3 plane = tangent_projector(friction.touch.point.normal);
-    if (k * length <= friction.max_force)
+    if (k * length <= friction.max_force) {
       blocks_.push_back({friction.touch.point, k * plane});
-    else
+    } else {
+      const Mat3 turned = friction.dual * slid.transpose() / length;
       blocks_.push_back(
-          {friction.touch.point, friction.max_force / length * (plane - slid * slid.transpose() / (length * length))});
+          {friction.touch.point, (friction.max_force * plane - (turned + turned.transpose()) / 2) / length});
+    }
   }
 }
 
@@ -217,8 +243,22 @@ void ContactPotential::add_product(const Vector& dx, Vector& out) const {
   }
 }
 
-bool ContactPotential::within_elements() const {
-  return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.point.count % 2 == 1; });
+void ContactPotential::add_rank_one_terms(std::vector<RankOneTerm>& terms) const {
+  for (const auto& [point, K] : blocks_) {
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(K);
+    for (int k = 0; k < 3; ++k) {
+      const double value = eigen.eigenvalues()[k];
+      if (!(value > 1e-9 * eigen.eigenvalues()[2])) continue;
+      std::array<Vec3, 4> g;
+      for (std::size_t a = 0; a < g.size(); ++a) {
+        const double weight = a < static_cast<std::size_t>(point.count) ? point.weights[a] : 0;
+        g[a] = weight * std::sqrt(value) * eigen.eigenvectors().col(k);
+      }
+      terms.push_back({point.count, point.nodes, g});
+    }
+  }
+  for (const auto& [nodes, g] : slides_)
+    terms.push_back({3, {nodes[0], nodes[1], nodes[2], 0}, {g[0], g[1], g[2], Vec3::Zero()}});
 }
 
 /// Friction of the active contacts, bounded by the normal forces at x. Springs that exist keep their stretch.
@@ -228,8 +268,8 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
   for (const ActiveContact& touch : active_) {
     const double friction = surfaces_[touch.surface].friction;
     if (!(friction > 0) || !(touch.point.gap < 0)) continue;
-    Friction& now =
-        result.emplace_back(Friction{touch, -friction * normal_stiffness(touch) * touch.point.gap, Vec3::Zero()});
+    Friction& now = result.emplace_back(Friction{touch, -friction * normal_stiffness(touch) * touch.point.gap,
+                                                 Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
     const auto is_same = [&](const Friction& f) {
       return f.touch.surface == touch.surface && f.touch.point.nodes == touch.point.nodes;
     };
@@ -237,6 +277,8 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
       if (old >= friction_.size()) old = 0;
       if (!is_same(friction_[old])) continue;
       now.stretch = friction_[old].stretch;
+      now.dual = friction_[old].dual;
+      now.slid = friction_[old].slid;
       break;
     }
   }
@@ -245,6 +287,7 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
 
 bool ContactPotential::update_lagged(const Vector& x) {
   if (empty() || ++revisions_ > max_revisions) return false;
+  update_duals(x);
   // Of the points that were resisted, with the penalty that resisted them: what a new pair goes through says nothing
   // about forces or penalty.
   find(x);
@@ -279,6 +322,7 @@ bool ContactPotential::update_lagged(const Vector& x) {
 void ContactPotential::accept(const Vector& x) {
   if (empty()) return;
   find(x);
+  update_duals(x);
   for (ContactReport& report : contacts_.reports) {
     report.force.setZero();
     report.normal_force = report.energy = report.max_penetration = 0;
@@ -308,6 +352,10 @@ void ContactPotential::accept(const Vector& x) {
     friction.stretch = stays && k > 0 ? Vec3(-force / k) : Vec3(Vec3::Zero());
   }
   accepted_ = friction_of_touches();
+  bearing_.clear();
+  for (const ContactPair& pair : pairs_)
+    if (const auto point = point_of(pair, [&](int n) { return at(x, n); }); point && point->gap < 0)
+      bearing_.push_back(pair);
 }
 
 }  // namespace heml

@@ -7,7 +7,8 @@
 //                tool may be placed inside tissue and the solver finds the way out.
 //   tangential   Coulomb friction as a spring from the point of sticking, which slips where its force would exceed μ N
 //                (P. Wriggers, Computational Contact Mechanics, 2006, 5.2): a Huber function, smooth and convex. Its
-//                stiffness is that of the nodes, or less where a light contact would slip at once. N is lagged: where
+//                stiffness is that of the nodes, or less where a light contact would slip at once. Where it slips,
+//                Newton's method is given the stiffness of a primal-dual method (update_duals()). N is lagged: where
 //                the new solution's N differs, the problem is solved again (update_lagged()). Springs persist from
 //                step to step, so sticking contacts do not creep.
 //
@@ -31,6 +32,8 @@ class ContactPotentialMemory {
     ActiveContact touch;
     double max_force;  ///< N
     Vec3 stretch;      ///< m, of the spring at the step's start
+    Vec3 dual;         ///< N, what the linear model makes of the spring's force, at most max_force; for linearise()
+    Vec3 slid;         ///< m, at the last linearise()
   };
   struct Block {
     ContactPoint point;
@@ -43,11 +46,13 @@ class ContactPotentialMemory {
   std::vector<ContactSurface> surfaces_, surfaces_before_;
   bool with_tissue_ = true;
   std::vector<ContactPair> pairs_;  ///< of self-contact, constant during a solve; ascending
+  std::vector<ContactPair> bearing_;  ///< those that bore a load when the last step ended; ascending
   Vector x_before_, touches_at_, x_seen_;
   std::vector<ActiveContact> active_;  ///< at positions touches_at_
   std::vector<Block> blocks_;
   std::vector<FaceSlide> slides_;
   int revisions_ = 0;
+  double step_taken_ = 0;  ///< since the last linearise(), of Newton's
 };
 
 class ContactPotential : private ContactPotentialMemory {
@@ -77,6 +82,8 @@ class ContactPotential : private ContactPotentialMemory {
   /// Evaluates the stiffness at x for the calls below, positive semidefinite: the negative part of a probe's geometric
   /// stiffness is left out (face_slide.hpp).
   void linearise(const Vector& x);
+  /// Since linearise(), this part of the step that its stiffness suggests was taken.
+  void step_taken(double part) { step_taken_ = part; }
   void add_product(const Vector& dx, Vector& out) const;
   /// Calls visit(a, b, 3×3 block in N/m, of a's rows and b's columns) for diagonal blocks (a == b) and for pairs of
   /// corners of one face, each pair once a contact. Of threads and self-contact, whose nodes share no element, only
@@ -84,9 +91,8 @@ class ContactPotential : private ContactPotentialMemory {
   template <class Visit>
   void each_block(const Visit& visit) const;
 
-  /// Whether each_block() visits the whole stiffness: there is no active thread and no self-contact.
-  bool within_elements() const;
-
+  /// Adds the stiffness as a sum of rank-one terms.
+  void add_rank_one_terms(std::vector<RankOneTerm>& terms) const;
   /// Updates the lagged quantities from a solution x: contact pairs, penalty stiffness and friction bounds. Returns
   /// true if any changed, so that the problem has to be solved again; at most 16 times per solve.
   bool update_lagged(const Vector& x);
@@ -105,6 +111,7 @@ class ContactPotential : private ContactPotentialMemory {
   Vec3 sliding(const Friction& friction, const Vector& x) const;
   Vec3 friction_force(const Friction& friction, const Vector& x) const;
   std::vector<Friction> friction_of_touches() const;
+  void update_duals(const Vector& x);
 
   Contacts& contacts_;
   double bound_;

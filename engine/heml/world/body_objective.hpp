@@ -91,10 +91,14 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   bool refine_precision() override;
   bool inverts_elements(const Vector& from, const Vector& to) const override;
   void linearise(const Vector& x, Projection projection = Projection::none) override;
+  void step_taken(double part) override { contact_.step_taken(part); }
   void product(const Vector& dx, Vector& out) override;
   bool is_symmetric() const override { return linearisation_point_.size() == 0; }
   void add_stiffness(BlockMatrix& matrix) override;
   bool add_stiffness_single_precision(BsrMatrix& rows) override;
+  void add_rank_one_terms(std::vector<RankOneTerm>& terms) const override {
+    if (!contact_.empty()) contact_.add_rank_one_terms(terms);
+  }
 
   /// Force of all loads and gravity together at the last residual(), as a part of their sizes' sum: 0 where they
   /// balance.

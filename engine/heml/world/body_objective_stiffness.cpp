@@ -144,9 +144,8 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
 
 template <class Real>
 bool BodyObjective<Real>::add_stiffness_single_precision(BsrMatrix& rows) {
-  if (!is_symmetric() || !contact_.within_elements()) return false;
+  if (!is_symmetric()) return false;
   if (!with_body([&](const auto& body) { return body.add_stiffness(rows, team_); })) return false;
-  add_contact_stiffness(rows);
   add_diagonal(rows);
   return true;
 }

@@ -24,6 +24,7 @@ constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of 
 // budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
 constexpr double seconds_an_iteration = 0.7e-6;
 constexpr int max_iterations = 60, max_halvings = 40;
+constexpr double rough_limit = 1e-3;         // of a stage's residual, while contact still changes with each solve
 constexpr long max_failed_iterations = 120;  // in contact: of a tick's attempts that fail, of a stage's solves
 }  // namespace
 
@@ -184,15 +185,18 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
   bool is_lagging = false;  // contact pairs or friction still change with each solve
   for (int substep = 1; substep <= substeps; ++substep) {
     if (substep > 1) parts.body.move_tools(time - h * (substeps - substep) / substeps);
-    long spent = 0;
-    do {
-      result = minimise_stage(x);
+    bool is_rough = !s_.contacts.empty() && !s_.setup->solver.budget;  // while contact changes with each solve
+    for (long spent = 0;;) {
+      result = minimise_stage(is_rough ? rough_limit : 0, x);
       s_.stats.iterations += result.iterations;
       spent += result.iterations;
       if (s_.interrupted) return false;
-      is_lagging =
-          result.status != NewtonResult::Status::undefined && !s_.setup->solver.budget && parts.body.update_lagged(x);
-    } while (is_lagging && (s_.setup->solver.step || takes_any_iterate() || spent <= max_failed_iterations));
+      if (result.status == NewtonResult::Status::undefined || s_.setup->solver.budget) break;
+      const bool was_rough = is_rough;
+      is_rough = is_lagging = parts.body.update_lagged(x);
+      const bool gives_up = spent > max_failed_iterations && !s_.setup->solver.step && !takes_any_iterate();
+      if (is_lagging ? gives_up : !was_rough) break;
+    }
     if (is_lagging) break;
   }
   Vector r;
@@ -223,19 +227,21 @@ int ImplicitStepper<Real>::probe_substeps(double h) const {
 }
 
 template <class Real>
-NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
+NewtonResult ImplicitStepper<Real>::minimise_stage(double least_limit, Vector& x) {
   ImplicitState<Real>& parts = s_.implicit_state();
   const int most = s_.setup->solver.budget ? stage_iterations() : NewtonOptions{}.max_iterations;
   parts.linear.limit_iterations(s_.setup->solver.budget ? s_.setup->solver.budget->linear : 0);
+  StoppingCriterion criterion = stage_criterion();
+  criterion.limit = std::max(criterion.limit, least_limit);
   if (s_.setup->solver.minimiser == Minimiser::lbfgs) {
     const int patience = s_.setup->solver.budget ? most : quasi_patience * most;
-    const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, stage_criterion(), patience, x);
+    const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, criterion, patience, x);
     if (result.converged() || s_.setup->solver.budget || result.status == NewtonResult::Status::undefined)
       return result;
   }
   NewtonOptions options;
   options.max_iterations = most;
-  return minimise(parts.step, parts.linear, stage_criterion(), options, x);
+  return minimise(parts.step, parts.linear, criterion, options, x);
 }
 
 template <class Real>

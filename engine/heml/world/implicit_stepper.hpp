@@ -39,7 +39,7 @@ class ImplicitStepper {
   double kinetic(const Vector& v) const;
   bool takes_any_iterate() const { return s_.setup->solver.budget || takes_best_; }
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
-  NewtonResult minimise_stage(Vector& x);
+  NewtonResult minimise_stage(double least_limit, Vector& x);
   int probe_substeps(double h) const;
   Vector stage_start(const Stage& stage, double time, const Vector& x);
   void place_supports(double time, Vector& x) const;

@@ -66,6 +66,12 @@ Vector random_direction(std::mt19937_64& random, Eigen::Index size) {
   return dx.normalized();
 }
 
+/// Makes the stiffness of friction at x the slope of its forces, as it is once Newton's method has converged.
+void settle(ContactPotential& potential, const Vector& x) {
+  potential.linearise(x);
+  potential.step_taken(1);
+}
+
 /// A node of stiffness k, N/m, at a table on z = 0 with friction.
 struct NodeOnTable {
   Contacts contacts;
@@ -174,19 +180,43 @@ TEST_CASE("blocks of the stiffness are its products, those of pairs within eleme
   const Eigen::MatrixXd K = matrix_of_products(potential, x);
   CHECK(K.norm() > 100);
   CHECK((K - matrix_of_blocks(potential, x)).norm() < 1e-12 * K.norm());
-  CHECK(potential.within_elements());
   Contacts sewn = contacts_of_face();
   sewn.sutures = {{{0, 3}, 4.5, 4.5, 0, 0}};
   ContactPotential thread(sewn, bound);
   thread.set_stiffness({100, 200, 300, 400});
   thread.begin(x, 0);
   const Eigen::MatrixXd T = matrix_of_products(thread, x), blocks = matrix_of_blocks(thread, x);
-  CHECK_FALSE(thread.within_elements());
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) {
       const Mat3 expected = a == b ? Mat3(T.block<3, 3>(3 * a, 3 * b)) : Mat3(Mat3::Zero());
       CHECK((blocks.block<3, 3>(3 * a, 3 * b) - expected).norm() < 1e-12 * T.norm());
     }
+}
+
+TEST_CASE("rank-one terms add up to the products, of tables, probes, threads and tissue") {
+  Contacts contacts = contacts_of_face();
+  contacts.tables = {{Vec3(0, 0, 0.05), Vec3::UnitZ(), 0.3}};
+  contacts.sutures = {{{0, 3}, 4.5, 4.5, 0, 0}};
+  put_probe(contacts, Vec3(0.1, 0.05, 0.45), 0.4);
+  const Vector x = positions(face_places);
+  ContactPotential potential(contacts, bound);
+  potential.set_stiffness({100, 200, 300, 400});
+  potential.begin(x, 0);
+  potential.update_lagged(x);
+  const Vector slid = x + 1e-3 * Vector::Ones(x.size());
+  const Eigen::MatrixXd K = matrix_of_products(potential, slid);
+  std::vector<RankOneTerm> terms;
+  potential.add_rank_one_terms(terms);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(x.size(), x.size());
+  int largest = 0;
+  for (const RankOneTerm& term : terms) {
+    Vector g = Vector::Zero(x.size());
+    for (std::size_t k = 0; k < static_cast<std::size_t>(term.count); ++k) g.segment<3>(3 * term.nodes[k]) = term.g[k];
+    sum += g * g.transpose();
+    largest = std::max(largest, term.count);
+  }
+  CHECK(largest == 3);
+  CHECK((sum - K).norm() < 1e-8 * K.norm());
 }
 
 TEST_CASE("friction holds as a spring up to Coulomb's bound and slips there, with the slope of one smooth energy") {
@@ -207,6 +237,7 @@ TEST_CASE("friction holds as a spring up to Coulomb's bound and slips there, wit
     const Vec3 f = forces(potential, at);
     CHECK((f - Vec3(0, 0, k * deep) + std::min(1.0, part) * most * along).norm() < 1e-12);
     CHECK(gradient_error(potential, at, slips_at / 100) < 1e-8);
+    settle(potential, at);
     CHECK(stiffness_error(potential, at, random_direction(random, 3), slips_at / 100) < 1e-6);
   }
 }
@@ -224,11 +255,37 @@ TEST_CASE("a light contact slips as far as a tenth of the accepted penetration a
     CAPTURE(part);
     CHECK(forces(potential, at(part * slips_at)).x() == doctest::Approx(-std::min(1.0, part) * most));
     CHECK(gradient_error(potential, at(part * slips_at), deep / 10) < 1e-6);
+    settle(potential, at(part * slips_at));
     CHECK(stiffness_error(potential, at(part * slips_at), random_direction(random, 3), deep / 10) < 1e-6);
   }
   potential.accept(at(0.5 * slips_at));
   potential.begin(at(0.5 * slips_at), 0);
   CHECK(forces(potential, at(0.5 * slips_at)).x() == doctest::Approx(-0.5 * most));
+}
+
+TEST_CASE("Newton's steps find where a point that slides comes to stick, and where it goes on") {
+  const double k = 1000, friction = 0.4, deep = 5e-5, most = friction * k * deep, slips_at = most / k;
+  const double soft = k / 1000;                          // of a spring at the node, along
+  for (const double pull : {0.1, 0.5, 0.9, 1.5, 4.0}) {  // of Coulomb's bound, towards larger x
+    CAPTURE(pull);
+    NodeOnTable on(k, friction);
+    ContactPotential& potential = on.potential;
+    const auto at = [&](double along) { return positions({Vec3(along, 0, -deep)}); };
+    potential.begin(at(0), 0);
+    while (potential.update_lagged(at(0))) {
+    }
+    const auto rest_force = [&](double x) { return forces(potential, at(x)).x() + pull * most - soft * x; };
+    double x = 400 * slips_at;
+    int steps = 0;
+    while (std::abs(rest_force(x)) > 1e-9 * most && steps < 60) {
+      potential.linearise(at(x));
+      x += rest_force(x) / (product(potential, at(x), Vector::Unit(3, 0)).x() + soft);
+      potential.step_taken(1);
+      ++steps;
+    }
+    CHECK(steps <= 6);
+    CHECK(x == doctest::Approx(pull < 1 ? pull * most / (k + soft) : (pull - 1) * most / soft));
+  }
 }
 
 TEST_CASE("friction is bounded by the forces of a solve, not by a penalty that was raised after it") {
@@ -339,7 +396,6 @@ TEST_CASE("tissue that met tissue on the way is pushed back with the slope of it
   CHECK(moment.norm() < 1e-12 * f.norm());
   CHECK(gradient_error(potential, crossed + 0.01 * random_direction(random, 24)) < 1e-8);
   potential.linearise(crossed);
-  CHECK_FALSE(potential.within_elements());
   CHECK(potential.update_lagged(crossed));  // what resists and gives way so far becomes stiffer
   CHECK(potential.value(crossed) * 2 / (0.1 * 0.1) == doctest::Approx(32 * k));
   potential.disable_self_contact();
