@@ -192,7 +192,7 @@ void LowRankUpdate::correct(Vector& z) {
 
 std::size_t LowRankUpdate::bytes() const {
   std::size_t sum = bytes_of(rows_, forces_) + bytes_of(terms_, strong_) +
-                    sizeof(double) * static_cast<std::size_t>(inverse_.size() + S_.matrixLLT().size());
+                    sizeof(double) * static_cast<std::size_t>(inverse_.size() + S_.rows() * S_.cols());
   for (const auto& column : columns_) sum += bytes_of(column);
   return sum;
 }

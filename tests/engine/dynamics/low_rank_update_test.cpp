@@ -138,7 +138,9 @@ TEST_CASE("the update of a preconditioner is the inverse of both together, as a 
     const std::vector<RankOneTerm> terms = terms_of(cube, 24);
     const Eigen::MatrixXd G = columns_of(cube, terms), both = cube.matrix() + G * G.transpose();
     LowRankUpdate update(cube.free, cube.team);
+    CHECK(update.bytes() == 0);
     update.set(P, terms);
+    CHECK(update.bytes() > 24 * 24 * sizeof(double));
     const MultiVector r = random_rows(cube.free.node.size());
     MultiVector z;
     P.apply(r, z);
