@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t max_strong = 512;                          // the matrix of so many is factored in some 20 ms
 constexpr std::size_t max_column_values = std::size_t(1) << 24;  // 64 MiB
 constexpr double weakest_term = 0.3;                             // of the stiffness of P: less costs more than it saves
-constexpr double round_off = 1e-6;                               // of P⁻¹, which is computed in float
+constexpr double column_round_off = 1e-6;                        // of P⁻¹, which is computed in float
 constexpr std::size_t update_grain = 24576;  // min. products per thread, which outweigh the cost of a fork
 constexpr std::size_t lanes = 4;             // columns at a time: of a MultiVector when they are computed, and to push
 
@@ -86,7 +86,7 @@ void LowRankUpdate::find_correction(SmoothedAggregation& P) {
   for (Eigen::Index j = 0; j < size; ++j) {
     for (Eigen::Index i = j; i < size; ++i)
       S(i, j) = coupling(strong_[static_cast<std::size_t>(i)], strong_[static_cast<std::size_t>(j)]);
-    S(j, j) = 1 + (1 + round_off) * S(j, j);
+    S(j, j) = 1 + (1 + column_round_off) * S(j, j);
   }
   S_.compute(S);
   if (S_.info() != Eigen::Success) strong_.clear();
