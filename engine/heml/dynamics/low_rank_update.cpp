@@ -89,7 +89,7 @@ void LowRankUpdate::find_correction(SmoothedAggregation& P) {
     S(j, j) = 1 + (1 + column_round_off) * S(j, j);
   }
   S_.compute(S);
-  if (S_.info() != Eigen::Success) strong_.clear();
+  if (S_.info() != Eigen::Success || !S_.matrixLLT().diagonal().allFinite()) strong_.clear();
 }
 
 void LowRankUpdate::keep_strongest() {
