@@ -32,16 +32,29 @@ void SelfContact::find(const std::vector<ContactPair>& held) {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
   if (!is_finite(skin_.x()) || !is_finite(to_)) return;  // the step detects the failure itself
+  find_contacts();
+  add_held(held);
+}
+
+/// Finds the contacts among the candidates that serve this step.
+void SelfContact::find_contacts() {
   double moved = std::max(spread(filtered_.reference, skin_.x()), spread(filtered_.reference, to_));
-  if (!(moved <= filtered_.allowance) || woken_steps_ > lasting || is_too_wide()) {
-    update_candidates();
+  if (!(moved <= filtered_.allowance) || woken_steps_ > lasting) {
     moved = spread(skin_.x(), to_);
+    if (is_long(moved)) {
+      if (!is_swept()) sweep();
+      return test(swept_.candidates, 0);
+    }
+    update_candidates();
   }
   const double reach = reach_of(moved);
   if (!(reach <= awake_reach_ && spread(woken_.reference, skin_.x()) <= woken_.allowance)) wake_candidates(moved);
   ++woken_steps_;
-  tests_ += static_cast<long>(awake_.size());
-  for (const auto& [distance, nodes, candidate, is_certain] : awake_) {
+  test(awake_, reach);
+}
+
+void SelfContact::test(const std::vector<AwakeCandidate>& candidates, double reach) {
+  for (const auto& [distance, nodes, candidate, is_certain] : candidates) {
     ++tested_count_;
     if (distance > reach || !(is_certain || can_meet(candidate))) continue;
     ContactPair pair{nodes, side_of(candidate)};
@@ -51,7 +64,6 @@ void SelfContact::find(const std::vector<ContactPair>& held) {
     contacts_.push_back(pair);
     points_.push_back(point_of(pair, *crossing));
   }
-  add_held(held);
 }
 
 /// Adds pairs that have borne a load and have lost nothing but the bend of their edges, or lie just beside their face.
@@ -165,7 +177,7 @@ bool SelfContact::is_out_of_both(const Candidate& candidate, const std::array<Ve
 
 std::size_t SelfContact::bytes() const {
   return skin_.bytes() + bytes_of(to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_) +
-         bytes_of(awake_, woken_.reference, contacts_, points_);
+         bytes_of(awake_, woken_.reference, swept_.from, swept_.boxes, swept_.candidates, contacts_, points_);
 }
 
 }  // namespace heml

@@ -16,16 +16,20 @@
 // In a body without inverted elements no node lies in an element of its neighbours, so neighbours are no contact. Pairs
 // that overlap at rest are ignored.
 //
-//   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► wake, filter, or broad phase
+//   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► wake, filter, or broad phase;
+//                  sweep where one step alone moves them further than a filter may allow
 //                  candidates awake that the motion since the filter brings within reach ──► contacts: those that
 //                  touch between from and to
-//   broad phase    faces in a grid of cells, in the order of cells ──► broad candidates, in the order of nodes
+//   broad phase    faces whose boxes, enlarged by the allowance, intersect ──► broad candidates, in the order of nodes
+//   sweep          faces whose boxes from start to end, with the element behind, intersect ──► candidates valid for
+//                  this start: a falling body reaches far ahead, but not to its sides
 //   filter         broad candidates ──► candidates, the nearest first: valid for a small part of the motion that the
 //                  broad phase allows
 //   wake           candidates ──► awake candidates, in the order of pairs: within reach of little more than the
 //                  motion since the filter, and not certain to fail (1) or (2) until nodes have moved further than they
 //                  move at rest. On flat surfaces most edges are no ridges, and most crossings lie far outside.
 // Built only where a scene has "self_contact".
+#include <Eigen/Geometry>
 #include <compare>
 #include <heml/tools/contact_pair.hpp>
 #include <heml/tools/contact_skin.hpp>
@@ -57,6 +61,7 @@ class SelfContact {
 
   long broad_phase_count() const { return broad_phase_count_; }  ///< broad phases run so far
   long filter_count() const { return filter_count_; }            ///< filters run so far
+  long sweep_count() const { return sweep_count_; }              ///< sweeps run so far
   long tested_count() const { return tested_count_; }            ///< candidates tested so far
   std::size_t bytes() const;
 
@@ -84,13 +89,20 @@ class SelfContact {
   struct CandidateSet {
     Positions reference;   ///< m; empty: none yet
     double allowance = 0;  ///< m
-    double step = 0;       ///< m, how far nodes moved in the step it was made for
+  };
+  /// Of a long step: where its nodes are on their way, in the frame of their mean motion.
+  struct Sweep {
+    Positions from;                          ///< m; empty: none yet
+    std::vector<Eigen::AlignedBox3d> boxes;  ///< #nodes, m
+    std::vector<AwakeCandidate> candidates;  ///< that can meet from there, in the order of pairs
   };
   static constexpr double touch_gap = 1e-3;  // of an edge: nearer pairs touch, since a step may push them together
   static constexpr double slack = 0.01;      // of a face or an edge: margin, so that nothing slips between neighbours
   static constexpr int lasting = 512;        // steps for which candidates stay awake
 
   void find(const std::vector<ContactPair>& held);
+  void find_contacts();
+  void test(const std::vector<AwakeCandidate>& candidates, double reach);
   void add_held(const std::vector<ContactPair>& held);
   std::array<int, 4> nodes_of(const Candidate& candidate) const;
   int side_of(const Candidate& candidate);
@@ -104,16 +116,20 @@ class SelfContact {
   // self_contact_search.cpp
   double spread(const Positions& reference, const Positions& x) const;
   double reach_of(double allowance) const;
-  bool is_too_wide();
-  bool is_far_below(double step, const CandidateSet& set) const;
+  bool is_long(double step) const;
   void update_candidates();
   void broad_phase(double step);
+  void sweep();
+  bool is_swept() const;
   void filter_candidates(double step);
   void wake_candidates(double moved);
   double squared_distance(const Candidate& candidate) const;
-  void add_candidates(int one, int other, double reach);
-  void add_node_candidates(int node, int face, double reach);
-  void add_edge_candidates(int one, int other, double reach);
+  template <class BoxOfNode>
+  std::vector<Eigen::AlignedBox3d> face_boxes(const BoxOfNode& box_of) const;
+  template <class IsNear>
+  void collect(const std::vector<Eigen::AlignedBox3d>& boxes, std::vector<Candidate>& candidates,
+               const IsNear& is_near);
+  bool overlaps_at_rest(const Candidate& candidate) const;
   Answer can_meet_within(const Candidate& candidate, double allowance);
   bool is_outside_within(const AwakeCandidate& awake, double allowance) const;
 
@@ -122,6 +138,7 @@ class SelfContact {
   double edge_;       ///< m, mean length at rest
   Positions to_;      ///< m, at its end
   CandidateSet searched_, filtered_;
+  Sweep swept_;
   CandidateSet woken_;                       ///< of awake_, for positions at a step's start
   double awake_reach_ = 0;                   ///< m, of awake_
   int woken_steps_ = 0;                      ///< since awake_ was made
@@ -130,8 +147,7 @@ class SelfContact {
   std::vector<AwakeCandidate> awake_;        ///< and of these, valid within awake_reach_, in the order of pairs
   std::vector<ContactPair> contacts_;
   std::vector<ContactPoint> points_;  ///< of contacts_
-  long tests_ = 0;                    ///< since the filter, or since is_too_wide() asked last
-  long broad_phase_count_ = 0, filter_count_ = 0, tested_count_ = 0;
+  long broad_phase_count_ = 0, filter_count_ = 0, sweep_count_ = 0, tested_count_ = 0;
 };
 
 }  // namespace heml

@@ -1,7 +1,7 @@
 // Which pairs are near: broad phase, filter, and those awake (self_contact.hpp).
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <heml/math/box_pairs.hpp>
 #include <heml/math/closest.hpp>
 #include <heml/tools/self_contact.hpp>
 #include <limits>
@@ -12,8 +12,8 @@ namespace {
 constexpr double beside = 0.25;  // of a face or an edge: margin within which overlapping pairs stay candidates
 constexpr double min_allowance = 0.15, max_allowance = 1;   // of an edge
 constexpr double min_filtered = 0.02, max_filtered = 0.15;  // of an edge
+constexpr double beside_way = 0.15;                         // of an edge: how far nodes may end beside their way
 constexpr double min_woken = 1e-4, max_woken = 0.05;        // of an edge
-constexpr long tests_per_candidate = 4;                     // after which to find candidates anew is cheap
 constexpr int brief = 32;                                   // steps: candidates awake for less are given more room
 constexpr double search_steps = 16, filter_steps = 8;       // as long as this one: for which candidates are found
 constexpr double same_overlap = 1e-6;                       // of an edge: smaller overlaps at rest are round-off
@@ -27,32 +27,38 @@ bool is_within(const ContactPair& pair, const ContactPoint& point, double by) {
   return w[0] >= -by && w[1] >= -by && w[2] <= by && w[3] <= by;
 }
 
+Vec3 mean_displacement(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 0; n < from.size(); ++n) sum += to[n] - from[n];
+  return sum / static_cast<double>(from.size());
+}
+
+Eigen::AlignedBox3d around(const Eigen::AlignedBox3d& box, double margin) {
+  const Vec3 more = Vec3::Constant(margin);
+  return {box.min() - more, box.max() + more};
+}
+
+Eigen::AlignedBox3d box_between(const Vec3& a, const Vec3& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
+
+template <class Candidates>
+void sort_by_pairs(Candidates& candidates) {
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.nodes < b.nodes; });
+}
+
 }  // namespace
 
 /// Largest displacement of a node from the reference, less the mean displacement, m. Infinite without a reference.
 double SelfContact::spread(const Positions& reference, const Positions& x) const {
   if (reference.size() != x.size()) return std::numeric_limits<double>::infinity();
-  Vec3 mean = Vec3::Zero();
-  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - reference[n];
-  mean /= static_cast<double>(x.size());
+  const Vec3 mean = mean_displacement(reference, x);
   double max_square = 0;
   for (std::size_t n = 0; n < x.size(); ++n)
     max_square = std::max(max_square, (x[n] - reference[n] - mean).squaredNorm());
   return std::sqrt(max_square);
 }
 
-/// Whether candidates were found for a step much longer than this one, and have been tested so often that to find them
-/// anew costs little beside that: after an impact, say.
-bool SelfContact::is_too_wide() {
-  if (tests_ < tests_per_candidate * static_cast<long>(broad_candidates_.size())) return false;
-  tests_ = 0;
-  const double step = spread(skin_.x(), to_);
-  return step > 0 && is_far_below(step, filtered_);
-}
-
-bool SelfContact::is_far_below(double step, const CandidateSet& set) const {
-  return step < set.step / 4 && set.allowance > min_allowance * edge_;
-}
+/// Whether a step (m) is so long that the filter would hold for it alone.
+bool SelfContact::is_long(double step) const { return 1.5 * step > max_filtered * edge_ && std::isfinite(step); }
 
 /// Filters the broad candidates, or finds them again where this step leaves what they are valid for. The filter's
 /// allowance ends where that of the broad phase does, so find() need not check both.
@@ -64,96 +70,106 @@ void SelfContact::update_candidates() {
     awake_reach_ = 0;
     return;
   }
-  if (!(spread(searched_.reference, skin_.x()) + 1.5 * step <= searched_.allowance) || is_far_below(step, searched_))
-    broad_phase(step);
+  if (!(spread(searched_.reference, skin_.x()) + 1.5 * step <= searched_.allowance)) broad_phase(step);
   filter_candidates(step);
 }
 
 /// Distance (m) within which pairs can touch while each node moves by at most `allowance`.
 double SelfContact::reach_of(double allowance) const { return 2 * allowance + (touch_gap + 4 * slack) * edge_; }
 
-/// Collects pairs of faces that share a grid cell, each once: in the cell of the lower corner of their boxes'
-/// intersection.
 void SelfContact::broad_phase(double step) {
   ++broad_phase_count_;
   searched_.reference = skin_.x();
-  searched_.step = step;
   searched_.allowance =
       std::max(1.5 * step, std::clamp(search_steps * step, min_allowance * edge_, max_allowance * edge_));
   const double reach = reach_of(searched_.allowance);
-  broad_candidates_.clear();
-  std::vector<Eigen::AlignedBox3d> boxes(skin_.faces().size());
-  Eigen::AlignedBox3d all;
-  double size = 0;
-  for (std::size_t f = 0; f < skin_.faces().size(); ++f) {
-    for (const int n : skin_.faces()[f]) boxes[f].extend(skin_.x()[at(n)]);
-    const Vec3 more = Vec3::Constant(reach / 2);
-    boxes[f] = Eigen::AlignedBox3d(boxes[f].min() - more, boxes[f].max() + more);
-    all.extend(boxes[f]);
-    size += boxes[f].sizes().maxCoeff() / static_cast<double>(skin_.faces().size());
-  }
-  constexpr double max_cells = 1 << 20;  // in each direction
-  const double cell = std::max(size, all.sizes().maxCoeff() / max_cells);
-  const auto cell_of = [&](const Vec3& x) -> Eigen::Vector3i {
-    return ((x - all.min()) / cell).array().floor().cast<int>();
+  const std::vector<Eigen::AlignedBox3d> boxes =
+      face_boxes([&](int n) { return around(Eigen::AlignedBox3d(skin_.x()[at(n)]), reach / 2); });
+  collect(boxes, broad_candidates_,
+          [&](const Candidate& candidate) { return squared_distance(candidate) <= reach * reach; });
+}
+
+/// Collects the pairs of a step so long that the filter would hold for it alone: those that can meet, of nodes and
+/// elements behind faces whose boxes, from start to end, intersect. They are all while the start is the same and each
+/// node ends in its box.
+void SelfContact::sweep() {
+  ++sweep_count_;
+  const Vec3 mean = mean_displacement(skin_.x(), to_);
+  swept_.from = skin_.x();
+  swept_.boxes.clear();
+  for (std::size_t n = 0; n < to_.size(); ++n)
+    swept_.boxes.push_back(around(box_between(skin_.x()[n], to_[n] - mean), beside_way * edge_));
+  const auto box_of = [this](int node) { return around(swept_.boxes[at(node)], reach_of(0) / 2); };
+  std::vector<Eigen::AlignedBox3d> boxes = face_boxes(box_of);
+  for (std::size_t f = 0; f < boxes.size(); ++f) boxes[f].extend(box_of(skin_.apex(static_cast<int>(f))));
+  const auto is_near = [&](int edge, int other) {  // to the elements behind the other
+    const auto& [a, b] = skin_.edges()[at(edge)].ends;
+    const auto& [one, two] = skin_.edges()[at(other)].faces;
+    return box_of(a).merged(box_of(b)).intersects(boxes[at(one)].merged(boxes[at(two)]));
   };
-  const auto key_of = [](const Eigen::Vector3i& c) {
-    return (static_cast<std::uint64_t>(c[0]) << 42) | (static_cast<std::uint64_t>(c[1]) << 21) |
-           static_cast<std::uint64_t>(c[2]);
+  std::vector<Candidate> found;
+  collect(boxes, found, [&](const Candidate& candidate) {
+    const auto& [edges, first, second] = candidate;
+    if (!can_meet(candidate)) return false;
+    return edges ? is_near(first, second) && is_near(second, first) : box_of(first).intersects(boxes[at(second)]);
+  });
+  swept_.candidates.clear();
+  for (const Candidate& candidate : found) swept_.candidates.push_back({0, nodes_of(candidate), candidate, true});
+  sort_by_pairs(swept_.candidates);
+}
+
+bool SelfContact::is_swept() const {
+  if (swept_.from != skin_.x()) return false;
+  const Vec3 mean = mean_displacement(skin_.x(), to_);
+  for (std::size_t n = 0; n < to_.size(); ++n)
+    if (!swept_.boxes[n].contains(to_[n] - mean)) return false;
+  return true;
+}
+
+template <class BoxOfNode>
+std::vector<Eigen::AlignedBox3d> SelfContact::face_boxes(const BoxOfNode& box_of) const {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const auto& [a, b, c] : skin_.faces()) boxes.push_back(box_of(a).merged(box_of(b)).merged(box_of(c)));
+  return boxes;
+}
+
+/// Finds candidates among the faces whose boxes intersect, in the order of candidates.
+template <class IsNear>
+void SelfContact::collect(const std::vector<Eigen::AlignedBox3d>& boxes, std::vector<Candidate>& candidates,
+                          const IsNear& is_near) {
+  candidates.clear();
+  const auto add = [&](const Candidate& candidate) {
+    if (is_near(candidate) && !overlaps_at_rest(candidate)) candidates.push_back(candidate);
   };
-  std::vector<std::pair<std::uint64_t, int>> entries;
-  for (std::size_t f = 0; f < skin_.faces().size(); ++f) {
-    const Eigen::Vector3i low = cell_of(boxes[f].min()), high = cell_of(boxes[f].max());
-    for (int i = low[0]; i <= high[0]; ++i)
-      for (int j = low[1]; j <= high[1]; ++j)
-        for (int k = low[2]; k <= high[2]; ++k) entries.emplace_back(key_of({i, j, k}), static_cast<int>(f));
+  const auto add_node = [&](int node, int face) {
+    const Triangle& corners = skin_.faces()[at(face)];
+    if (node >= 0 && std::find(corners.begin(), corners.end(), node) == corners.end()) add({false, node, face});
+  };
+  const auto add_edges = [&](int one, int other) {
+    if (one < 0 || other < 0) return;
+    const auto [a, b] = skin_.edges()[at(one)].ends;
+    const auto [c, d] = skin_.edges()[at(other)].ends;
+    if (a != c && a != d && b != c && b != d) add({true, std::min(one, other), std::max(one, other)});
+  };
+  for (const auto& [one, other] : intersecting_pairs(boxes)) {
+    for (const int n : skin_.own_nodes(one)) add_node(n, other);
+    for (const int n : skin_.own_nodes(other)) add_node(n, one);
+    for (const int e : skin_.own_edges(one))
+      for (const int d : skin_.own_edges(other)) add_edges(e, d);
   }
-  std::sort(entries.begin(), entries.end());
-  for (std::size_t first = 0, last; first < entries.size(); first = last) {
-    for (last = first; last < entries.size() && entries[last].first == entries[first].first;) ++last;
-    for (std::size_t p = first; p < last; ++p)
-      for (std::size_t q = p + 1; q < last; ++q) {
-        const auto &one = boxes[at(entries[p].second)], &other = boxes[at(entries[q].second)];
-        if (!one.intersects(other) || key_of(cell_of(one.min().cwiseMax(other.min()))) != entries[p].first) continue;
-        add_candidates(entries[p].second, entries[q].second, reach);
-      }
-  }
-  std::sort(broad_candidates_.begin(), broad_candidates_.end());
+  std::sort(candidates.begin(), candidates.end());
 }
 
-void SelfContact::add_candidates(int one, int other, double reach) {
-  for (const int n : skin_.own_nodes(one))
-    if (n >= 0) add_node_candidates(n, other, reach);
-  for (const int n : skin_.own_nodes(other))
-    if (n >= 0) add_node_candidates(n, one, reach);
-  for (const int e : skin_.own_edges(one))
-    for (const int d : skin_.own_edges(other))
-      if (e >= 0 && d >= 0) add_edge_candidates(std::min(e, d), std::max(e, d), reach);
-}
-
-void SelfContact::add_node_candidates(int node, int face, double reach) {
-  const Triangle& corners = skin_.faces()[at(face)];
-  if (std::find(corners.begin(), corners.end(), node) != corners.end()) return;
-  if (squared_distance({false, node, face}) > reach * reach) return;
-  // A pair that overlaps at rest is no contact.
-  const ContactPair pair{{node, corners[0], corners[1], corners[2]}, 0};
+/// Such a pair is no contact.
+bool SelfContact::overlaps_at_rest(const Candidate& candidate) const {
+  const int side = candidate.edges ? skin_.side_at_rest(candidate.first, candidate.second) : 0;
+  const ContactPair pair{nodes_of(candidate), side};
   const auto at_rest = point_of(pair, [this](int n) { return skin_.rest()[at(n)]; });
-  if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest, slack)) {
-    const double depth = skin_.rest_normal(face).dot(skin_.rest()[at(corners[0])] - skin_.rest()[at(skin_.apex(face))]);
-    if (-at_rest->gap < 2 * depth) return;
-  }
-  broad_candidates_.push_back({false, node, face});
-}
-
-void SelfContact::add_edge_candidates(int one, int other, double reach) {
-  const auto [a, b] = skin_.edges()[at(one)].ends;
-  const auto [c, d] = skin_.edges()[at(other)].ends;
-  if (a == c || a == d || b == c || b == d) return;
-  if (squared_distance({true, one, other}) > reach * reach) return;
-  const ContactPair pair{{a, b, c, d}, skin_.side_at_rest(one, other)};
-  const auto at_rest = point_of(pair, [this](int n) { return skin_.rest()[at(n)]; });
-  if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest, slack)) return;
-  broad_candidates_.push_back({true, one, other});
+  if (!at_rest || at_rest->gap >= -same_overlap * edge_ || !is_within(pair, *at_rest, slack)) return false;
+  if (candidate.edges) return true;
+  const int face = candidate.second;
+  const Vec3& corner = skin_.rest()[at(skin_.faces()[at(face)][0])];
+  return -at_rest->gap < 2 * skin_.rest_normal(face).dot(corner - skin_.rest()[at(skin_.apex(face))]);
 }
 
 /// Of the candidate's two primitives with nodes at the start, m².
@@ -177,8 +193,6 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
 void SelfContact::filter_candidates(double step) {
   ++filter_count_;
   filtered_.reference = skin_.x();
-  filtered_.step = step;
-  tests_ = 0;
   filtered_.allowance =
       std::min(searched_.allowance - spread(searched_.reference, skin_.x()),
                std::max(1.5 * step, std::clamp(filter_steps * step, min_filtered * edge_, max_filtered * edge_)));
@@ -214,8 +228,7 @@ void SelfContact::wake_candidates(double moved) {
     const AwakeCandidate awake{distance, nodes_of(candidate), candidate, answer == Answer::yes};
     if (answer != Answer::no && !is_outside_within(awake, all_motion)) awake_.push_back(awake);
   }
-  std::sort(awake_.begin(), awake_.end(),
-            [](const AwakeCandidate& a, const AwakeCandidate& b) { return a.nodes < b.nodes; });
+  sort_by_pairs(awake_);
 }
 
 /// What can_meet() says at all positions within `allowance` (m) of the start, each by its mean displacement at most.
