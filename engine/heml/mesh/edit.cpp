@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <heml/mesh/edit.hpp>
+#include <heml/mesh/field_of_piece.hpp>
 #include <numeric>
 #include <set>
 
@@ -79,9 +80,8 @@ void append(const MeshEdit& edit, TetMesh& mesh) {
   mesh.tets.insert(mesh.tets.end(), edit.added.begin(), edit.added.end());
   for (const int parent : edit.parents) mesh.regions.push_back(mesh.regions[static_cast<std::size_t>(parent)]);
   for (ElementField& field : mesh.fields)
-    for (const int parent : edit.parents)
-      for (std::size_t c = 0; c < field.components; ++c)
-        field.values.push_back(field.values[field.components * static_cast<std::size_t>(parent) + c]);
+    for (std::size_t k = 0; k < edit.parents.size(); ++k)
+      append_piece(field, mesh, edit.parents[k], rest_corners(mesh, edit.added[k]), field.values);
   if (mesh.burns.empty()) return;
   for (const int parent : edit.parents) mesh.burns.push_back(mesh.burns[static_cast<std::size_t>(parent)]);
 }

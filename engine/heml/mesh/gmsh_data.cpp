@@ -30,7 +30,7 @@ std::string name_from(Scanner& in) {
 void GmshData::read(Scanner& in, GmshNumbers& numbers, ReadMesh& read) {
   Section section = header(in);
   const std::size_t components = section.components;
-  bool wanted = (components == 1 || components == 3) && !section.name.empty();
+  bool wanted = is_field_size(components) && !section.name.empty();
   if (wanted && first_step_.try_emplace(section.name, section.step).first->second != section.step) {
     read.more_steps = true;
     wanted = false;

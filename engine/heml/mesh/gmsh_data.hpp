@@ -18,7 +18,7 @@ struct GmshElement {
 class GmshData {
  public:
   /// Reads a section, from after its first line to before its last. Uses only the first of several time steps of a
-  /// field and sets read.more_steps; skips data that do not have 1 or 3 components.
+  /// field and sets read.more_steps; skips data that have another number of components than fields may (tet_mesh.hpp).
   void read(Scanner& in, GmshNumbers& numbers, ReadMesh& read);
 
   /// Adds the fields with a value for at least one of the tetrahedra. Throws InputError (Scanner::fail of `in`).

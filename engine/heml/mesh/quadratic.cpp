@@ -58,17 +58,20 @@ std::size_t count_nodes(const MidEdges& midedges) {
 
 namespace {
 
-/// Regions, burns and fields of a mesh with `each` elements in the place of one.
+/// Regions, burns and fields of a mesh with `each` elements in the place of one. Values at integration points go to
+/// those.
 void repeat_values(const TetMesh& mesh, std::size_t each, TetMesh& result) {
   for (const Burn& burn : mesh.burns) result.burns.insert(result.burns.end(), each, burn);
   for (const int region : mesh.regions) result.regions.insert(result.regions.end(), each, region);
   for (const ElementField& field : mesh.fields) {
-    ElementField& finer = result.fields.emplace_back(ElementField{field.name, field.components, {}});
+    const bool is_of_points = field.components == point_components && each == element_points;
+    ElementField& finer = result.fields.emplace_back(ElementField{field.name, is_of_points ? 3 : field.components, {}});
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-      for (std::size_t child = 0; child < each; ++child)
-        finer.values.insert(finer.values.end(),
-                            field.values.begin() + static_cast<std::ptrdiff_t>(t * field.components),
-                            field.values.begin() + static_cast<std::ptrdiff_t>((t + 1) * field.components));
+      for (std::size_t child = 0; child < each; ++child) {
+        const std::size_t first = t * field.components + (is_of_points ? 3 * child : 0);
+        finer.values.insert(finer.values.end(), field.values.begin() + static_cast<std::ptrdiff_t>(first),
+                            field.values.begin() + static_cast<std::ptrdiff_t>(first + finer.components));
+      }
   }
 }
 

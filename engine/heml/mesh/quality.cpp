@@ -39,7 +39,7 @@ void check_indices(const TetMesh& mesh) {
     throw InputError(mesh.source, "",
                      fmt::format("has {} regions for {} tetrahedra", mesh.regions.size(), mesh.tets.size()));
   for (const ElementField& field : mesh.fields)
-    if ((field.components != 1 && field.components != 3) || field.values.size() != field.components * mesh.tets.size())
+    if (!is_field_size(field.components) || field.values.size() != field.components * mesh.tets.size())
       throw InputError(mesh.source, fmt::format("field '{}'", field.name),
                        fmt::format("has {} values of {} components for {} tetrahedra", field.values.size(),
                                    field.components, mesh.tets.size()));
@@ -84,6 +84,11 @@ void repair_winding(TetMesh& mesh, MidEdges* midedges, QualityReport& report) {
         std::swap(middle[edge_between(0, 2)], middle[edge_between(0, 3)]);
         std::swap(middle[edge_between(1, 2)], middle[edge_between(1, 3)]);
       }
+      for (ElementField& field : mesh.fields)
+        if (field.components == point_components) {  // points 2 and 3, which lie towards these corners
+          double* values = &field.values[point_components * t];
+          std::swap_ranges(values + 6, values + 9, values + 9);
+        }
       ++report.flipped;
     }
     report.volume += std::abs(volume);

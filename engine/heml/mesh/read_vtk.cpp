@@ -214,9 +214,9 @@ class VtkReader {
     }
   }
 
-  // Reads an array: `region` or a field if it belongs to cells and has 1 or 3 components; else skips it.
+  // Reads an array: `region` or a field if it belongs to cells and has as many components as fields may; else skips it.
   void values_of(std::string_view name, std::size_t components, std::size_t tuples, const Type& type) {
-    if (!of_cells_ || (components != 1 && components != 3)) return skip(components * tuples, type);
+    if (!of_cells_ || !is_field_size(components)) return skip(components * tuples, type);
     if (lower(name) != "region" || components != 1) {
       need(components * tuples, type);
       ElementField field{decoded(name), components, std::vector<double>(components * tuples)};

@@ -171,13 +171,14 @@ class VtuReader {
     const std::string_view components = attribute(tag, "NumberOfComponents");
     const bool scalar = components.empty() || components == "1";
     const std::optional<ArrayType> type = array_type(attribute(tag, "type"));
-    if (!type || (!scalar && components != "3")) return;
+    const std::size_t count = scalar ? 1 : components == "3" ? 3 : components == "12" ? point_components : 0;
+    if (!type || count == 0) return;
     if (name == "region" && scalar) {
       if (type->kind != NumberKind::real) return integers(tag, cells_.regions);
       read_.real_regions = true;
       return;
     }
-    ElementField field{unescaped(name), scalar ? 1u : 3u, {}};
+    ElementField field{unescaped(name), count, {}};
     reals(tag, field.values);
     add_cell_field(std::move(field), in_, cells_);
   }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <heml/mesh/field_of_piece.hpp>
 #include <heml/mesh/refine.hpp>
 #include <map>
 #include <numeric>
@@ -95,12 +96,8 @@ class Bisection {
     if (!mesh_.burns.empty())
       for (const int parent : result_.parents)
         result_.mesh.burns.push_back(mesh_.burns[static_cast<std::size_t>(parent)]);
-    for (const ElementField& field : mesh_.fields) {
-      ElementField& finer = result_.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
-      for (const int parent : result_.parents)
-        for (std::size_t k = 0; k < field.components; ++k)
-          finer.values.push_back(field.values[static_cast<std::size_t>(parent) * field.components + k]);
-    }
+    for (const ElementField& field : mesh_.fields)
+      result_.mesh.fields.push_back(field_of_pieces(field, mesh_, result_.mesh, result_.parents));
   }
 
   const TetMesh& mesh_;

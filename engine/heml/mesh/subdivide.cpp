@@ -1,3 +1,4 @@
+#include <heml/mesh/field_of_piece.hpp>
 #include <heml/mesh/subdivide.hpp>
 #include <map>
 
@@ -72,14 +73,10 @@ Subdivision subdivide_uniformly(const TetMesh& mesh) {
   }
   for (const int region : mesh.regions) result.mesh.regions.insert(result.mesh.regions.end(), 8, region);
   for (const Burn& burn : mesh.burns) result.mesh.burns.insert(result.mesh.burns.end(), 8, burn);
-  for (const ElementField& field : mesh.fields) {
-    ElementField& finer = result.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-      for (int child = 0; child < 8; ++child)
-        finer.values.insert(finer.values.end(),
-                            field.values.begin() + static_cast<std::ptrdiff_t>(t * field.components),
-                            field.values.begin() + static_cast<std::ptrdiff_t>((t + 1) * field.components));
-  }
+  std::vector<int> parents;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) parents.insert(parents.end(), 8, static_cast<int>(t));
+  for (const ElementField& field : mesh.fields)
+    result.mesh.fields.push_back(field_of_pieces(field, mesh, result.mesh, parents));
   return result;
 }
 

@@ -16,11 +16,19 @@ using Triangle = std::array<int, 3>;
 /// Local nodes of the six edges of a tetrahedron; edges k and 5 − k are opposite.
 inline constexpr std::array<std::array<std::size_t, 2>, 6> tet_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
+/// Of a field that has a vector for each of the four integration points of a quadratic tetrahedron (quadratic.hpp).
+inline constexpr std::size_t point_components = 12;
+
+/// Whether a field may have as many numbers an element.
+constexpr bool is_field_size(std::size_t components) {
+  return components == 1 || components == 3 || components == point_components;
+}
+
 /// A named field of scalars or vectors per tetrahedron from a mesh file. NaN where the file gives no value; users of a
 /// field check its values.
 struct ElementField {
   std::string name;
-  std::size_t components;      ///< 1 or 3
+  std::size_t components;      ///< as in is_field_size()
   std::vector<double> values;  ///< components × #T, contiguous per tetrahedron
 };
 
@@ -45,6 +53,13 @@ struct TetMesh {
 
 /// Lengths of the rest shape of tetrahedron t over those between the nodes of the mesh.
 inline double rest_scale(const TetMesh& mesh, std::size_t t) { return mesh.burns.empty() ? 1 : mesh.burns[t].scale; }
+
+/// The corners of an element at rest, m. tet: of nodes of the mesh.
+inline std::array<Vec3, 4> rest_corners(const TetMesh& mesh, const Tet& tet) {
+  std::array<Vec3, 4> corners;
+  for (std::size_t c = 0; c < 4; ++c) corners[c] = mesh.nodes[static_cast<std::size_t>(tet[c])];
+  return corners;
+}
 
 /// The field of that name; nullptr if there is none.
 inline const ElementField* find_field(const TetMesh& mesh, std::string_view name) {

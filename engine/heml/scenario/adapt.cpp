@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <heml/base/error.hpp>
+#include <heml/mesh/field_of_piece.hpp>
 #include <heml/mesh/refine.hpp>
 #include <heml/scenario/adapt.hpp>
 #include <heml/scenario/load_mesh.hpp>
@@ -126,13 +127,9 @@ AdaptedScene on_last_mesh(const Scene& scene, const Adaptation& adaptation, cons
   const WorldSetup corners = corners_of(adaptation.setup);  // middles of edges are made on reading
   AdaptedScene result{scene, corners.mesh};
   result.mesh.fields.clear();
-  for (const ElementField& field : load_mesh(scene).fields) {
-    ElementField& pieces = result.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
-    for (const int origin : adaptation.origins) {
-      const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(origin * field.components);
-      pieces.values.insert(pieces.values.end(), first, first + static_cast<std::ptrdiff_t>(field.components));
-    }
-  }
+  const TetMesh first = load_mesh(scene);
+  for (const ElementField& field : first.fields)
+    result.mesh.fields.push_back(field_of_pieces(field, first, corners.mesh, adaptation.origins));
   Scene& finer = result.scene;
   finer.mesh = MeshSpec();
   finer.mesh.file = mesh_file;

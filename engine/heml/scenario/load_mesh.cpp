@@ -130,7 +130,7 @@ TetMesh load_mesh(const Scene& scene, MidEdges* midedges) {
   const Placement placement(scene.mesh);
   for (Vec3& node : mesh.nodes) node = placement(node);
   for (ElementField& field : mesh.fields)
-    for (std::size_t i = 0; field.components == 3 && i < field.values.size(); i += 3) {
+    for (std::size_t i = 0; field.components % 3 == 0 && i < field.values.size(); i += 3) {
       Eigen::Map<Vec3> vector(&field.values[i]);
       vector = placement.direction(vector);
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/materials/parameter_slots.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <heml/scenario/material_fields.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/young_poisson.hpp>
@@ -38,8 +39,13 @@ std::string described(const TetMesh& mesh) {
 class Check {
  public:
   Check(const Material& material, const std::vector<std::size_t>& elements, TetMesh& mesh, std::string file,
-        std::string place)
-      : material_(material), elements_(elements), mesh_(mesh), file_(std::move(file)), place_(std::move(place)) {}
+        std::string place, bool quadratic)
+      : material_(material),
+        elements_(elements),
+        mesh_(mesh),
+        file_(std::move(file)),
+        place_(std::move(place)),
+        quadratic_(quadratic) {}
 
   void run() {
     for (const FieldParameter& field : material_.fields) add_made_field(field.field);
@@ -62,7 +68,8 @@ class Check {
       fail(key,
            fmt::format("the field '{}' of {} has {} numbers an element", shown(short_name), mesh_.source,
                        found->components),
-           fmt::format("{} are wanted", components));
+           components == 3 ? fmt::format("3 are wanted{}", quadratic_ ? ", or 12: at its integration points" : "")
+                           : fmt::format("{} are wanted", components));
     return *found;
   }
 
@@ -94,9 +101,13 @@ class Check {
   }
 
   void take_fibres() {
-    std::vector<double>& values = field_of("fibre", material_.fibre_field, 3).values;
-    for (const std::size_t t : elements_) {
-      Eigen::Map<Vec3> fibre(&values[3 * t]);
+    const ElementField* given = find_field(mesh_, material_.fibre_field);
+    const bool of_points = quadratic_ && given && given->components == point_components;
+    std::vector<double>& values = field_of("fibre", material_.fibre_field, of_points ? point_components : 3).values;
+    const std::size_t each = of_points ? element_points : 1;
+    for (std::size_t k = 0; k < each * elements_.size(); ++k) {
+      const std::size_t t = elements_[k / each];
+      Eigen::Map<Vec3> fibre(&values[3 * (each * t + k % each)]);
       const double length = fibre.stableNorm();
       if (!(length > 0) || !std::isfinite(length))
         fail("fibre",
@@ -132,6 +143,7 @@ class Check {
   const std::vector<std::size_t>& elements_;
   TetMesh& mesh_;
   std::string file_, place_;
+  bool quadratic_;
 };
 
 /// Sets every parameter that is a field to its mean over the elements, weighted by volume.
@@ -161,7 +173,7 @@ void resolve_fields(const std::string& file, WorldSetup& setup) {
     Material& material = setup.materials[i].material;
     if (!uses_fields(material)) continue;
     const std::vector<std::size_t> elements = elements_of(setup.materials[i].region, setup.materials, setup.mesh);
-    Check(material, elements, setup.mesh, file, fmt::format("materials[{}]", i)).run();
+    Check(material, elements, setup.mesh, file, fmt::format("materials[{}]", i), !setup.midedges.empty()).run();
     fill_means(elements, setup.mesh, material);
     for (const FieldParameter& field : material.fields) used.insert(field.field);
     used.insert(material.fibre_field);

@@ -118,7 +118,9 @@ inline constexpr KeyInfo materials[] = {
      "energy per unit rest volume, Pa, of [invariants and stretches](../../engine/docs/laws.md#energy)"},
     {"parameters", object, "", "`{}`", "a number for each other name in the expression"},
     {"fibre", form::other("`[x, y, z]`, or `{\"field\": NAME}`"), "",
-     "required by laws with fibres, and by `active_stress`", "direction at rest, normalised when read"},
+     "required by laws with fibres, and by `active_stress`",
+     "direction at rest, normalised when read; a field for `p2` may have 12 numbers an element, a direction at each of "
+     "its [points](../../engine/docs/elements.md#fibres)"},
     {"active_stress", form::non_negative, "Pa", "0",
      "of contracting muscle, Ta: second Piola-Kirchhoff stress Ta a0⊗a0 along `fibre`; static scenes ramp it with "
      "their loads; changed by the event `active_stress`"},

@@ -212,8 +212,8 @@ Boundary moved(int node, const Vec3& displacement, double ramp_time) {
   return boundary;
 }
 
-Vec3 middle_of(const WorldSetup& setup, std::size_t element) {
-  return ElementMap(setup, element).at(setup.mesh.nodes, {0.25, 0.25, 0.25, 0.25});
+Vec3 place_in(const WorldSetup& setup, std::size_t element, const std::array<double, 4>& coordinates) {
+  return ElementMap(setup, element).at(setup.mesh.nodes, coordinates);
 }
 
 std::vector<Vec3> carried(const WorldSetup& setup, const std::vector<Vec3>& x, const std::vector<Vec3>& points) {

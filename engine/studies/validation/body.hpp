@@ -39,8 +39,8 @@ std::vector<int> nodes_where(const WorldSetup& setup, const std::function<bool(c
 /// A node moved by a displacement, ramped over ramp_time.
 Boundary moved(int node, const Vec3& displacement, double ramp_time = 0);
 
-/// The middle of an element at rest, straight or curved.
-Vec3 middle_of(const WorldSetup& setup, std::size_t element);
+/// A place in an element at rest, straight or curved, by its barycentric coordinates.
+Vec3 place_in(const WorldSetup& setup, std::size_t element, const std::array<double, 4>& coordinates);
 
 /// Positions of material points given at rest: interpolated by the shape functions of linear or quadratic elements.
 /// setup: as made by make_body(), not yet moved into a world. x: positions of its nodes.

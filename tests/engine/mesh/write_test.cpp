@@ -34,7 +34,8 @@ TEST_CASE("Gmsh, VTK and VTU give back fields to the bit, their names and places
   TetMesh mesh = make_box(Vec3(1, 1, 1), {1, 1, 1});
   mesh.fields = {{"young's modulus 100% <\"E\" & µ>", 1, {1.0 / 3, 4.9e-324, -0.0, 1e308, 5}},
                  {"fibre", 3, {}},
-                 {"a  b", 1, std::vector<double>(5, 2)}};
+                 {"a  b", 1, std::vector<double>(5, 2)},
+                 {"points", point_components, std::vector<double>(5 * point_components, 0.1)}};
   for (int i = 0; i < 15; ++i) mesh.fields[1].values.push_back(std::sin(i));
   mesh.fields[1].values[7] = std::numeric_limits<double>::quiet_NaN();
   mesh.fields[1].values[8] = -std::numeric_limits<double>::infinity();
@@ -43,8 +44,8 @@ TEST_CASE("Gmsh, VTK and VTU give back fields to the bit, their names and places
     CAPTURE(name);
     write_tet_mesh(folder / name, mesh);
     const TetMesh back = read_tet_mesh(folder / name);
-    REQUIRE(back.fields.size() == 3);
-    for (std::size_t f = 0; f < 3; ++f) {
+    REQUIRE(back.fields.size() == mesh.fields.size());
+    for (std::size_t f = 0; f < mesh.fields.size(); ++f) {
       CHECK(back.fields[f].name == mesh.fields[f].name);
       CHECK(back.fields[f].components == mesh.fields[f].components);
       for (std::size_t i = 0; i < mesh.fields[f].values.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <engine/mesh/files.hpp>
 #include <engine/scenario/samples.hpp>
 #include <heml/mesh/generate.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <heml/mesh/write.hpp>
 #include <heml/scenario/load_mesh.hpp>
 #include <limits>
@@ -129,6 +130,34 @@ TEST_CASE("fibres become unit vectors and turn with the mesh") {
   CHECK((Vec3(d[0], d[1], d[2]) - Vec3(0, 1, 0)).norm() < 1e-15);
   CHECK((Vec3(d[3], d[4], d[5]) - Vec3(-1, 0, 0)).norm() < 1e-15);
   CHECK((Vec3(d[6], d[7], d[8]) - Vec3(0, 0, 1)).norm() < 1e-15);
+}
+
+TEST_CASE(
+    "quadratic elements take a fibre for each of their points, which turns with the mesh; linear ones refuse it") {
+  TetMesh mesh = field_mesh();
+  ElementField field{"points", point_components, std::vector<double>(5 * point_components, 0.0)};
+  for (std::size_t k = 0; k < 20; ++k) field.values[3 * k + k % 3] = 2;
+  mesh.fields = {field};
+  const std::string muscle =
+      R"([{"law": "stvk", "lambda": 0, "mu": 5, "active_stress": 9, "fibre": {"field": "points"}}])";
+  const std::string quadratic =
+      R"({"solver": {"element": "p2"}, "mesh": {"rotate": {"axis": [0, 0, 1], "degrees": 90}}})";
+  const WorldSetup setup = Body(mesh).setup(muscle, quadratic);
+  const TetMesh points = virtual_tets(setup.mesh, setup.midedges);
+  REQUIRE(points.fields.size() == 1);
+  CHECK(points.fields[0].components == 3);
+  for (std::size_t k = 0; k < 20; ++k) {
+    CAPTURE(k);
+    const Vec3 expected = k % 3 == 0 ? Vec3::UnitY() : k % 3 == 1 ? Vec3(-1, 0, 0) : Vec3::UnitZ();
+    CHECK((Eigen::Map<const Vec3>(&points.fields[0].values[3 * k]) - expected).norm() < 1e-15);
+  }
+  CHECK(says(Body(mesh).refusal_of(muscle), "has 12 numbers an element (3 are wanted)"));
+  const std::string p2 = R"({"solver": {"element": "p2"}})";
+  CHECK(says(
+      Body().refusal_of(R"([{"law": "stvk", "lambda": 0, "mu": 5, "active_stress": 9, "fibre": {"field": "E"}}])", p2),
+      "has 1 numbers an element (3 are wanted, or 12: at its integration points)"));
+  for (const std::size_t i : {3 * 14u, 3 * 14u + 1, 3 * 14u + 2}) mesh.fields[0].values[i] = 0;
+  CHECK(says(Body(mesh).refusal_of(muscle, p2), "the field 'points' is [0, 0, 0] in element 3"));
 }
 
 TEST_CASE("refuses fields the mesh has not, of other size, or with values that are wrong, naming the element") {

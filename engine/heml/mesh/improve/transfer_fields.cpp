@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <heml/mesh/field_of_piece.hpp>
 #include <heml/mesh/improve/transfer_fields.hpp>
 #include <limits>
 #include <map>
@@ -75,15 +76,10 @@ void transfer_fields(const TetMesh& from, TetMesh& to) {
   for (std::size_t t = 0; t < from.tets.size(); ++t) trees[from.regions[t]].add(centroid_of(from, t), t);
   for (auto& [region, tree] : trees) tree.build();
   to.fields = from.fields;
-  for (ElementField& field : to.fields) field.values.clear();
-  for (std::size_t t = 0; t < to.tets.size(); ++t) {
-    const std::size_t source = trees.at(to.regions[t]).nearest(centroid_of(to, t));
-    for (std::size_t f = 0; f < to.fields.size(); ++f) {
-      const ElementField& old = from.fields[f];
-      for (std::size_t c = 0; c < old.components; ++c)
-        to.fields[f].values.push_back(old.values[source * old.components + c]);
-    }
-  }
+  std::vector<int> nearest;
+  for (std::size_t t = 0; t < to.tets.size(); ++t)
+    nearest.push_back(static_cast<int>(trees.at(to.regions[t]).nearest(centroid_of(to, t))));
+  for (ElementField& field : to.fields) field = field_of_pieces(field, from, to, nearest);
 }
 
 }  // namespace heml
