@@ -142,6 +142,9 @@ class ElasticBody {
 
   /// Stored elastic energy, J: V W of every element, springs and nodal pressure; viscosity and relaxation store none.
   double energy(const Real* x, ThreadTeam& team);
+  /// The part of it that is the potential of active stress, J: below 0 where muscle has shortened, so it says nothing
+  /// about how much a body is deformed.
+  double active_energy(const Real* x, ThreadTeam& team);
   /// The potential U of forces() = −∇U, J: energy() plus the incremental potential of viscosity and relaxation for the
   /// step of the last begin_step().
   double potential(const Real* x, ThreadTeam& team);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/error_estimate.hpp>
+#include <numeric>
 
 namespace heml {
 namespace {
@@ -54,6 +55,19 @@ double ElasticBody<Real>::energy(const Real* x, ThreadTeam& team) {
   x = inner_positions(x, team);
   double sum = layout_->joints.springs.energy(x) + sum_energies(x, true, team);
   if (pressure_) sum += pressure_->energy(x);
+  return sum;
+}
+
+template <class Real>
+double ElasticBody<Real>::active_energy(const Real* x, ThreadTeam& team) {
+  x = inner_positions(x, team);
+  double sum = 0;
+  for (const Part& part : parts_) {
+    if (!part.active) continue;
+    std::vector<double> of_packet(part.group->packets(), 0.0);
+    part.active->energies(*part.group, x, 0, part.group->packets(), of_packet.data(), true);
+    sum = std::accumulate(of_packet.begin(), of_packet.end(), sum);
+  }
   return sum;
 }
 
@@ -142,6 +156,8 @@ std::vector<Mat3> ElasticBody<Real>::deformation_gradients(const Real* x) const 
 
 template double ElasticBody<float>::energy(const float*, ThreadTeam&);
 template double ElasticBody<double>::energy(const double*, ThreadTeam&);
+template double ElasticBody<float>::active_energy(const float*, ThreadTeam&);
+template double ElasticBody<double>::active_energy(const double*, ThreadTeam&);
 template double ElasticBody<float>::potential(const float*, ThreadTeam&);
 template double ElasticBody<double>::potential(const double*, ThreadTeam&);
 template int ElasticBody<float>::first_undefined(const float*) const;

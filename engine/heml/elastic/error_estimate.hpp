@@ -19,7 +19,7 @@ namespace heml {
 struct ErrorEstimate {
   std::vector<double> of_element;  ///< #T, J, 0 or more: e_t²
   double squared = 0;              ///< J, their sum
-  double stored = 0;               ///< J, elastic energy: half the squared energy norm of the deformation
+  double stored = 0;  ///< J, elastic energy without active stress: half the squared energy norm of the deformation
 
   /// Relative error in the energy norm, 0 to 1: √(e² / (2 stored + e²)).
   double relative() const;

@@ -68,8 +68,10 @@ class Check {
       fail(key,
            fmt::format("the field '{}' of {} has {} numbers an element", shown(short_name), mesh_.source,
                        found->components),
-           components == 3 ? fmt::format("3 are wanted{}", quadratic_ ? ", or 12: at its integration points" : "")
-                           : fmt::format("{} are wanted", components));
+           components != 3                         ? fmt::format("{} are wanted", components)
+           : quadratic_                            ? "3 are wanted, or 12: at its integration points"
+           : found->components == point_components ? "3 are wanted; 12 are for \"element\": \"p2\""
+                                                   : "3 are wanted");
     return *found;
   }
 

@@ -122,7 +122,7 @@ std::optional<ErrorEstimate> WorldQueries<Real>::estimate() {
                          : quadratic_recovery_errors(s_.model->mesh, s_.model->material_of,
                                                      body.deformation_gradients(s_.state.x.data()), P);
   found.squared = std::accumulate(found.of_element.begin(), found.of_element.end(), 0.0);
-  found.stored = body.energy(s_.state.x.data(), s_.team);
+  found.stored = body.energy(s_.state.x.data(), s_.team) - body.active_energy(s_.state.x.data(), s_.team);
   return found;
 }
 

@@ -151,7 +151,8 @@ TEST_CASE(
     const Vec3 expected = k % 3 == 0 ? Vec3::UnitY() : k % 3 == 1 ? Vec3(-1, 0, 0) : Vec3::UnitZ();
     CHECK((Eigen::Map<const Vec3>(&points.fields[0].values[3 * k]) - expected).norm() < 1e-15);
   }
-  CHECK(says(Body(mesh).refusal_of(muscle), "has 12 numbers an element (3 are wanted)"));
+  CHECK(
+      says(Body(mesh).refusal_of(muscle), "has 12 numbers an element (3 are wanted; 12 are for \"element\": \"p2\")"));
   const std::string p2 = R"({"solver": {"element": "p2"}})";
   CHECK(says(
       Body().refusal_of(R"([{"law": "stvk", "lambda": 0, "mu": 5, "active_stress": 9, "fibre": {"field": "E"}}])", p2),

@@ -174,4 +174,28 @@ TEST_CASE("active stress: the pieces of a cut muscle pull as the whole did, with
   }
 }
 
+TEST_CASE("active stress: the estimate of the error is relative to the energy of the law alone") {
+  for (const bool quadratic : {false, true}) {
+    CAPTURE(quadratic);
+    const WorldSetup setup = block(Integrator::static_equilibrium, quadratic);
+    const auto world = make_world(setup);
+    world->load_to(1);
+    REQUIRE(!world->halt());
+    CHECK(world->energies().elastic < 0);
+    const double strain = -stress / young, volume = length * 0.02 * 0.02;
+    REQUIRE(world->error_estimate());
+    CHECK(world->error_estimate()->stored == doctest::Approx(young / 2 * strain * strain * volume).epsilon(1e-6));
+    WorldSetup held = setup;  // at its sides too: its end bulges
+    held.materials[0].material = soft("neo_hookean", young, 0.45);
+    held.materials[0].material.fibre = Vec3::UnitX();
+    held.materials[0].material.active_stress = stress;
+    const auto bulging = make_world(held);
+    bulging->load_to(1);
+    REQUIRE(!bulging->halt());
+    const double error = bulging->error_estimate()->relative();
+    CHECK(error > 0.02);
+    CHECK(error < 0.8);
+  }
+}
+
 }  // namespace heml::active_stress_test
