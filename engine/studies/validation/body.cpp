@@ -232,12 +232,24 @@ std::vector<Vec3> carried(const WorldSetup& setup, const std::vector<Vec3>& x, c
   return result;
 }
 
+std::size_t unknowns_of(const WorldSetup& setup) {
+  std::vector<AxisSet> held(setup.mesh.nodes.size(), AxisSet::none());
+  for (const Boundary& boundary : setup.boundary)
+    for (const int n : boundary.nodes) {
+      AxisSet& axes = held[static_cast<std::size_t>(n)];
+      axes = axes.with(boundary.axes);
+    }
+  std::size_t count = 0;
+  for (const AxisSet& axes : held)
+    count += static_cast<std::size_t>(std::count(axes.has.begin(), axes.has.end(), false));
+  return count;
+}
+
 Solved solve(const Trial& trial, WorldSetup setup, double tolerance, int parts) {
   setup.solver.integrator = Integrator::static_equilibrium;
   setup.solver.tolerance = tolerance;
   Solved solved;
-  solved.unknowns = 3 * setup.mesh.nodes.size();
-  for (const Boundary& boundary : setup.boundary) solved.unknowns -= 3 * boundary.nodes.size();
+  solved.unknowns = unknowns_of(setup);
   const auto began = std::chrono::steady_clock::now();
   const auto world = trial.make(std::move(setup));
   for (int k = 1; k <= parts && !world->halt(); ++k) world->load_to(static_cast<double>(k) / parts);

@@ -54,6 +54,8 @@ struct Solved {
   double seconds = 0;
   std::string failed;  ///< empty: converged
 };
+/// Coordinates of nodes that no boundary condition holds.
+std::size_t unknowns_of(const WorldSetup& setup);
 /// parts: of the load, solved one after the other, where the whole at once takes Newton's method longer.
 Solved solve(const Trial& trial, WorldSetup setup, double tolerance = 1e-8, int parts = 1);
 

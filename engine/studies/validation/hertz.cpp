@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <heml/mesh/generate.hpp>
 #include <studies/validation/body.hpp>
@@ -84,6 +85,7 @@ Finding ball_contact(const Trial& trial) {
   setup.solver.step = 1;  // inertia is 1e-9 of the stiffness
   setup.solver.tolerance = 1e-6;
   Solved solved;
+  solved.unknowns = unknowns_of(setup);
   const auto world = trial.make(std::move(setup));
   Curve ours{"p2, 10 cells"};
   MoveProbe probe;
@@ -93,8 +95,10 @@ Finding ball_contact(const Trial& trial) {
     probe.path = {Vec3(0, 0, ball_radius - at), Vec3(0, 0, ball_radius - depth)};
     probe.speed = depth - at;
     at = depth;
+    const auto began = std::chrono::steady_clock::now();
     world->apply(probe);
     world->tick();
+    solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     if (world->halt()) solved.failed = world->halt()->message;
     const double found = 4 * world->reactions()[0].z();
     ours.points.push_back({depth, found});
