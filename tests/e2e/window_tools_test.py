@@ -117,9 +117,14 @@ class Tools(WindowCase):
 
     def on_the_clamp(self, bare):
         """A place on the shaft of a clamp that stands over the body: of pixels that were tissue in `bare` and
-        are steel now, the one nearest to their middle."""
+        are steel now, with those about them, the one nearest to their middle."""
         now, red = self.steady(), set(bare.red(300, 1010))
-        steel = [at for at in red if max(now.pixel(*at)) - min(now.pixel(*at)) < 40 < max(now.pixel(*at))]
+        about = [(x, y) for x in (-2, 0, 2) for y in (-2, 0, 2)]
+
+        def is_steel(x, y):
+            return max(now.pixel(x, y)) - min(now.pixel(x, y)) < 40 < max(now.pixel(x, y))
+
+        steel = [(x, y) for x, y in red if all(is_steel(x + dx, y + dy) for dx, dy in about)]
         middle = [sum(at[k] for at in steel) / len(steel) for k in range(2)]
         return min(steel, key=lambda at: (at[0] - middle[0]) ** 2 + (at[1] - middle[1]) ** 2)
 
