@@ -160,16 +160,22 @@ void SelfContact::collect(const std::vector<Eigen::AlignedBox3d>& boxes, std::ve
   std::sort(candidates.begin(), candidates.end());
 }
 
-/// Such a pair is no contact.
+/// Such a pair is no contact. Edges that turn their backs on each other lie behind each other however far apart they
+/// are, so what overlaps is no deeper than the elements behind.
 bool SelfContact::overlaps_at_rest(const Candidate& candidate) const {
   const int side = candidate.edges ? skin_.side_at_rest(candidate.first, candidate.second) : 0;
   const ContactPair pair{nodes_of(candidate), side};
   const auto at_rest = point_of(pair, [this](int n) { return skin_.rest()[at(n)]; });
   if (!at_rest || at_rest->gap >= -same_overlap * edge_ || !is_within(pair, *at_rest, slack)) return false;
-  if (candidate.edges) return true;
-  const int face = candidate.second;
-  const Vec3& corner = skin_.rest()[at(skin_.faces()[at(face)][0])];
-  return -at_rest->gap < 2 * skin_.rest_normal(face).dot(corner - skin_.rest()[at(skin_.apex(face))]);
+  const auto height_behind = [this](int face) {
+    const Vec3& corner = skin_.rest()[at(skin_.faces()[at(face)][0])];
+    return skin_.rest_normal(face).dot(corner - skin_.rest()[at(skin_.apex(face))]);
+  };
+  double least = height_behind(candidate.edges ? skin_.edges()[at(candidate.first)].faces[0] : candidate.second);
+  if (candidate.edges)
+    for (const int edge : {candidate.first, candidate.second})
+      for (const int face : skin_.edges()[at(edge)].faces) least = std::min(least, height_behind(face));
+  return -at_rest->gap < 2 * least;
 }
 
 /// Of the candidate's two primitives with nodes at the start, m².

@@ -208,6 +208,18 @@ TEST_CASE("of tetrahedra thrown about those pairs meet that a search of all pair
   CHECK(counts.edges > 200);
 }
 
+TEST_CASE("edges whose bodies turn their backs on each other at rest meet when one is brought round") {
+  Counts counts;
+  for (const unsigned seed : {97u, 203u, 246u, 255u}) {
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    Soup soup(random, 40, 1.8);
+    soup.move(random, uniform(random, 0.1, 1.5));
+    SelfContact contact({}, soup.mesh);
+    compare(contact, soup, counts);
+  }
+}
+
 TEST_CASE("candidates kept from earlier steps miss no pair, and are kept for some steps") {
   Counts counts;
   std::mt19937_64 random(99);
