@@ -76,7 +76,7 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
                                                               Shared<ElementGroup<Real>> at_rest) const {
   const Material& material = materials_[index];
   if (material.plasticity) at_rest = ElementGroup<Real>(*at_rest);  // flow changes it
-  Part part{index, std::move(at_rest), {}, nullptr, nullptr, {}, false};
+  Part part{index, std::move(at_rest), {}, nullptr, nullptr, {}, false, {}};
   const bool by_element = options_.nodal_pressure && layout_->virtual_corners;
   Material of_points = material;
   if (by_element) {
@@ -94,6 +94,8 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   part.flow = make_flow<Real>(material, options_.continuation, *part.group);
   part.flows_within_steps =
       part.flow && material.viscosity == 0 && material.bulk_viscosity == 0 && material.relaxation.empty();
+  if (layout_->virtual_corners)
+    part.points = point_forces<Real>(of_points, options_.continuation, options_.instruction_set);
   part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && !layout_->virtual_corners &&
                  has_fan_kernel(material);
   if (part.in_fans)
@@ -166,9 +168,7 @@ void ElasticBody<Real>::join_parts() {
   std::vector<const ElementGroup<Real>*> groups;
   for (const Part& part : parts_) groups.push_back(&*part.group);
   joints.corners = map_corners(groups, layout_->mesh.nodes.size());
-  if (layout_->virtual_corners) {
-    layout_.write().virtual_corners->follow(groups);
-  } else {
+  if (!layout_->virtual_corners) {
     joints.force_corners = force_corners(joints.corners);
     joints.springs = Springs<Real>(layout_->mesh, spring_stiffness());
   }

@@ -20,6 +20,7 @@
 #include <heml/elastic/nodal_pressure.hpp>
 #include <heml/elastic/packet_bounds.hpp>
 #include <heml/elastic/plastic_flow.hpp>
+#include <heml/elastic/point_kernels.hpp>
 #include <heml/elastic/projection.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/tet_mesh.hpp>
@@ -46,7 +47,7 @@ struct BodyOptions {
   bool continuation = false;
   bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials; of quadratic elements
                                 ///< mean dilatation, each material with a volume term of its own
-  InstructionSet instruction_set = InstructionSet::best;  ///< of the fan kernels; the processor must support it
+  InstructionSet instruction_set = InstructionSet::best;  ///< of the force kernels; the processor must support it
   int threads = 0;                                        ///< that build the layout of a large body; 0: one per core
 };
 
@@ -54,8 +55,9 @@ struct BodyOptions {
 struct KernelInfo {
   std::size_t material;  ///< index into the body's materials
   std::string law;
-  std::string kernel;  ///< "fans": fan kernels; "corners": loops over corner forces; "fans and corners": fan kernels,
-                       ///< loops for nodal pressure or active stress; "springs": along edges
+  std::string kernel;  ///< "fans": fan kernels; "points": point kernels, or the loops that replace them; "corners":
+                       ///< loops over corner forces; "fans and corners": fan kernels, loops for nodal pressure or
+                       ///< active stress; "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
   double bytes_per_tet;  ///< read and written in one force evaluation, each array counted once; 0 for springs
@@ -261,10 +263,14 @@ class ElasticBody {
     std::unique_ptr<MeanDilatation<Real>> dilatation;  ///< null: the points have all of the volume term
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
     bool in_fans;                                      ///< fans_ evaluates the forces of all passive terms
+    PointForces<Real> points;                          ///< of the law, where points of quadratic elements have a kernel
     ActiveTerm<Real>* active = nullptr;                ///< the last of the terms, or null
     bool flows_within_steps = false;                   ///< of implicit methods; else after them
 
     Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
+    /// Whether point kernels take what forces() evaluates. A volume term that is not quadratic is a term of its own.
+    bool is_for_points() const { return points.law && terms.size() == 1; }
+    bool in_points() const { return points.kernel && is_for_points(); }
     std::size_t first_loop() const { return in_fans ? terms.size() - (active ? 1 : 0) : 0; }  ///< of forces()
     SlotStates<Real> slot_states();     ///< of all terms and the flow
     void reset_history(const Real* x);  ///< of all terms and the flow
@@ -307,6 +313,12 @@ class ElasticBody {
     corner_.resize(3 * layout_->joints.corner_count);
     return corner_;
   }
+  /// 3 a node of each quadratic element, N (VirtualCorners::sum()): scratch.
+  Real* nodal_forces() {
+    of_element_.resize(30 * layout_->virtual_corners->elements());
+    return of_element_.data();
+  }
+  bool quadratic_forces(const Real* x, Real* f, ThreadTeam& team);
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;
@@ -367,7 +379,7 @@ class ElasticBody {
   std::unique_ptr<NodalPressure<Real>> pressure_;
   std::vector<Real> virtual_x_;            ///< scratch of inner_positions()
   std::vector<Real> corner_;               ///< corner_forces()
-  std::vector<Real> of_element_;           ///< scratch of VirtualCorners::gather()
+  std::vector<Real> of_element_;           ///< nodal_forces()
   std::vector<Real> linearisation_point_;  ///< 3 a node of the layout's mesh
   bool projected_ = false;                 ///< whether project() was applied
   std::vector<double> packet_energy_;      ///< scratch of energy()

@@ -31,9 +31,47 @@ void ElasticBody<Real>::gather_corners(const CornerMap& corners, Real* f, bool a
   });
 }
 
+/// Of quadratic elements. A kernel goes straight from nodes to nodes; else terms add up at virtual corners.
+template <class Real>
+bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& team) {
+  const VirtualCorners<Real>& corners = *layout_->virtual_corners;
+  const bool needs_corners = !std::all_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.in_points(); });
+  const Real* y = needs_corners ? inner_positions(x, team) : nullptr;
+  Real* corner = needs_corners ? corner_forces().data() : nullptr;
+  Real* of_element = nodal_forces();
+  std::atomic<bool> valid{true};
+  for (const Part& part : parts_) {
+    const ElementGroup<Real>& group = *part.group;
+    const auto note = [&](bool defined) {
+      if (!defined) valid.store(false, std::memory_order_relaxed);
+    };
+    if (part.in_points()) {
+      const PointBlock<Real> block =
+          point_block(group, corners.element_nodes(), part.dilatation ? part.dilatation->kappa() : nullptr);
+      team.parallel_for(group.size() / element_points, grain_ / element_points,
+                        [&](std::size_t begin, std::size_t end) {
+                          note(part.points.kernel(part.points.law.get(), block, x, begin, end, of_element));
+                        });
+      continue;
+    }
+    for (const auto& term : part.terms)
+      team.parallel_for(group.packets(), grain_ / group.lanes, [&](std::size_t begin, std::size_t end) {
+        note(term->forces(group, y, begin, end, corner, term != part.terms.front()));
+      });
+  }
+  each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
+    if (!part.in_points() && !part.dilatation->add_forces(*part.group, y, begin, end, corner))
+      valid.store(false, std::memory_order_relaxed);
+  });
+  for (const Part& part : parts_)
+    if (!part.in_points()) corners.at_nodes(*part.group, corner_, of_element, team);
+  corners.sum(of_element, f, team);
+  return valid;
+}
+
 template <class Real>
 bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
-  x = inner_positions(x, team);
+  if (layout_->virtual_corners) return quadratic_forces(x, f, team);
   std::atomic<bool> valid{true};
   const bool pressure_in_fans = this->pressure_in_fans(), loops_for_pressure = pressure_ && !pressure_in_fans;
   const Real* pressure = nullptr;
@@ -45,7 +83,7 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   }
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   if (!fans_.empty() && !fans_.forces(x, f, team, pressure)) valid = false;
-  const bool has_loops = layout_->virtual_corners || !layout_->joints.force_corners.corners.empty();
+  const bool has_loops = !layout_->joints.force_corners.corners.empty();
   Real* corner = has_loops ? corner_forces().data() : nullptr;
   for (const Part& part : parts_) {
     const std::size_t first = part.first_loop(), corners = part.group->first_corner;
@@ -56,14 +94,6 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
       });
     if (loops_for_pressure && part.terms.size() == first)  // no term has written these corners
       std::fill_n(corner + 3 * corners, 12 * part.group->volume.size(), Real(0));
-  }
-  if (layout_->virtual_corners) {
-    each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-      if (!part.dilatation->add_forces(*part.group, x, begin, end, corner))
-        valid.store(false, std::memory_order_relaxed);
-    });
-    layout_->virtual_corners->gather(corner_, of_element_, f, team);
-    return valid;
   }
   if (loops_for_pressure && !pressure_->add_forces(x, corner, team)) valid = false;
   if (fans_.empty() || !layout_->joints.force_corners.corners.empty())
@@ -78,6 +108,9 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
   // forces.
   const double corners = 4 * sizeof(int) + 7 * sizeof(Real) + 4 * (6 * sizeof(Real) + sizeof(std::size_t)) +
                          static_cast<double>(6 * sizeof(Real) * nodes()) / static_cast<double>(elements());
+  // The same a point of point kernels, which write and gather ten nodes for four points.
+  const double of_points = 2.5 * sizeof(int) + 7 * sizeof(Real) + 2.5 * (6 * sizeof(Real) + sizeof(std::size_t)) +
+                           static_cast<double>(6 * sizeof(Real) * nodes()) / static_cast<double>(4 * elements());
   std::vector<KernelInfo> result;
   std::size_t part_in_fans = 0;
   for (const Part& part : parts_) {
@@ -92,9 +125,11 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
         info.instructions = name_of(fans_.instruction_set());
         info.bytes_per_tet = fans_.bytes_per_tet(part_in_fans++);
       } else if (material.fields.empty()) {
-        info.instructions = wide_instructions();  // elastic/law_term.hpp
+        info.instructions = part.in_points() ? name_of(part.points.instruction_set) : wide_instructions();
       }
-      info.bytes_per_tet += corners * static_cast<double>(part.terms.size() - part.first_loop());
+      if (part.is_for_points()) info.kernel = "points";
+      info.bytes_per_tet +=
+          part.in_points() ? of_points : corners * static_cast<double>(part.terms.size() - part.first_loop());
       info.elements /= points_per_element();
       info.bytes_per_tet *= static_cast<double>(points_per_element());
     }

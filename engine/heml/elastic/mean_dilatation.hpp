@@ -58,6 +58,7 @@ class MeanDilatation {
                      QuadraticMatrix<Real>& K) const;
   /// p of a slot at the point of linearise(), Pa.
   Real pressure(std::size_t s) const { return linear_[s / 4].pressure; }
+  const Real* kappa() const { return kappa_.data(); }  ///< κ̄ of each slot, padded
   std::size_t bytes() const { return bytes_of(kappa_, linear_); }
 
  private:

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <heml/elastic/avx2_dispatch.hpp>
-#include <heml/elastic/four.hpp>
+#include <heml/elastic/quadratic_map.hpp>
 #include <heml/elastic/virtual_corners.hpp>
 
 namespace heml {
@@ -8,75 +8,40 @@ namespace {
 
 constexpr std::size_t element_grain = 512, gather_grain = 1024;
 
-/// Node and weight of all 64 products of an element, unrolled by the compiler.
-struct Product {
-  std::size_t corner, node;
-  double weight;
-};
-constexpr std::array<Product, 64> products = [] {
-  std::array<Product, 64> all{};
-  for (std::size_t q = 0; q < 4; ++q)
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto nodes = virtual_corner(q, i);
-      for (std::size_t k = 0; k < 4; ++k) all[16 * q + 4 * i + k] = {4 * q + i, nodes[k].node, nodes[k].weight};
-    }
-  return all;
-}();
-
-/// Writes 3 count values, and nothing behind them.
-template <std::size_t count, class Real>
-[[gnu::always_inline]] inline void write_threes(const Four<Real> (&values)[count], Real* to) {
-#pragma GCC unroll 16
-  for (std::size_t k = 0; k + 1 < count; ++k) write_four(values[k], to + 3 * k);
-  for (std::size_t i = 0; i < 3; ++i) to[3 * (count - 1) + i] = values[count - 1][i];
-}
-
 /// Bx of elements [begin, end).
 template <class Real>
-[[gnu::always_inline]] inline void corners_of_nodes(const std::array<int, 10>* nodes, const Real* x, std::size_t begin,
+[[gnu::always_inline]] inline void corners_of_nodes(const QuadraticNodes* nodes, const Real* x, std::size_t begin,
                                                     std::size_t end, Real* y) {
-  using V = Four<Real>;
   for (std::size_t t = begin; t < end; ++t) {
-    V at[10], out[16];
-    const auto place = [&](std::size_t a) { return read_three(x + 3 * static_cast<std::size_t>(nodes[t][a])); };
-    const V first = place(0);
-#pragma GCC unroll 16
-    for (std::size_t a = 0; a < 10; ++a) at[a] = place(a) - first;
-#pragma GCC unroll 16
-    for (V& corner : out) corner = V{};
-#pragma GCC unroll 64
-    for (const Product& p : products) out[p.corner] += static_cast<Real>(p.weight) * at[p.node];
-    write_threes(out, y + 48 * t);
+    Four<Real> corners[16];
+    read_virtual_corners(nodes[t], x, corners);
+    write_threes(corners, y + 48 * t);
   }
 }
 
-/// Bᵀh of elements [begin, end), 3 a node of theirs.
+/// Bᵀh of the elements in slots 4 [begin, end) of a group, 3 a node of theirs.
 template <class Real>
-[[gnu::always_inline]] inline void nodes_of_corners(const std::size_t* first_corner, const Real* h, std::size_t begin,
+[[gnu::always_inline]] inline void nodes_of_corners(const ElementGroup<Real>& group, const Real* h, std::size_t begin,
                                                     std::size_t end, Real* of_element) {
-  using V = Four<Real>;
-  for (std::size_t t = begin; t < end; ++t) {
-    V at[16], out[10];
+  for (std::size_t k = begin; k < end; ++k) {
+    const Real* from = h + 3 * (group.first_corner + 16 * k);
+    Four<Real> corners[16];
 #pragma GCC unroll 16
-    for (std::size_t c = 0; c < 16; ++c) at[c] = read_three(h + 3 * (first_corner[t] + c));
-#pragma GCC unroll 16
-    for (V& node : out) node = V{};
-#pragma GCC unroll 64
-    for (const Product& p : products) out[p.node] += static_cast<Real>(p.weight) * at[p.corner];
-    write_threes(out, of_element + 30 * t);
+    for (std::size_t c = 0; c < 16; ++c) corners[c] = read_three(from + 3 * c);
+    write_nodes(corners, of_element + 30 * element_at(group, 4 * k));
   }
 }
 
 template <class Real>
-HEML_WIDE void wide_corners_of_nodes(const std::array<int, 10>* nodes, const Real* x, std::size_t begin,
-                                     std::size_t end, Real* y) {
+HEML_WIDE void wide_corners_of_nodes(const QuadraticNodes* nodes, const Real* x, std::size_t begin, std::size_t end,
+                                     Real* y) {
   corners_of_nodes(nodes, x, begin, end, y);
 }
 
 template <class Real>
-HEML_WIDE void wide_nodes_of_corners(const std::size_t* first_corner, const Real* h, std::size_t begin, std::size_t end,
+HEML_WIDE void wide_nodes_of_corners(const ElementGroup<Real>& group, const Real* h, std::size_t begin, std::size_t end,
                                      Real* of_element) {
-  nodes_of_corners(first_corner, h, begin, end, of_element);
+  nodes_of_corners(group, h, begin, end, of_element);
 }
 
 }  // namespace
@@ -96,14 +61,6 @@ VirtualCorners<Real>::VirtualCorners(const TetMesh& mesh, const MidEdges& midedg
 }
 
 template <class Real>
-void VirtualCorners<Real>::follow(const std::vector<const ElementGroup<Real>*>& groups) {
-  first_corner_.assign(nodes_.size(), 0);
-  for (const auto* group : groups)
-    for (std::size_t s = 0; s < group->size(); s += element_points)
-      first_corner_[static_cast<std::size_t>(group->element[s]) / element_points] = group->first_corner + 4 * s;
-}
-
-template <class Real>
 void VirtualCorners<Real>::positions(const Real* x, std::vector<Real>& y, ThreadTeam& team) const {
   y.resize(48 * nodes_.size());
   team.parallel_for(nodes_.size(), element_grain, [&](std::size_t begin, std::size_t end) {
@@ -120,13 +77,15 @@ std::vector<Real> VirtualCorners<Real>::positions(const Real* x) const {
 }
 
 template <class Real>
-void VirtualCorners<Real>::gather(const std::vector<Real>& h, std::vector<Real>& of_element, Real* f,
-                                  ThreadTeam& team) const {
-  of_element.resize(30 * nodes_.size());  // N
-  team.parallel_for(nodes_.size(), element_grain, [&](std::size_t begin, std::size_t end) {
-    (has_avx2() ? wide_nodes_of_corners<Real> : nodes_of_corners<Real>)(first_corner_.data(), h.data(), begin, end,
-                                                                        of_element.data());
+void VirtualCorners<Real>::at_nodes(const ElementGroup<Real>& group, const std::vector<Real>& h, Real* of_element,
+                                    ThreadTeam& team) const {
+  team.parallel_for(group.size() / element_points, element_grain, [&](std::size_t begin, std::size_t end) {
+    (has_avx2() ? wide_nodes_of_corners<Real> : nodes_of_corners<Real>)(group, h.data(), begin, end, of_element);
   });
+}
+
+template <class Real>
+void VirtualCorners<Real>::sum(const Real* of_element, Real* f, ThreadTeam& team) const {
   team.parallel_for(nodes(), gather_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Real sum[3] = {0, 0, 0};

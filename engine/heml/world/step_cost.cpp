@@ -8,6 +8,8 @@ namespace {
 // not, takes several times as long as a pass within the fans. Active stress is estimated: a third of the operations of
 // viscosity.
 constexpr double a_loop = 20, a_pass = 4, active = 6, pressure_in_loops = 22, pressure_in_fans = 6;
+// ns a point of quadratic elements, which shares no edges with others: `heml solve` of a block with and without.
+constexpr double a_point = 12;
 constexpr double step_alone = 2;  // its own: positions, velocities, its bound
 
 double cost_of(const KernelInfo& kernel, const WorldSetup& setup) {
@@ -17,6 +19,7 @@ double cost_of(const KernelInfo& kernel, const WorldSetup& setup) {
   const double a_term = in_loops ? a_loop : a_pass;
   double cost = step_alone + (setup.solver.single_precision ? law.in_float : law.in_double);
   if (in_loops) cost += a_loop;
+  if (kernel.kernel == "points") cost += a_point;
   if (material.volume_term != VolumeTerm::quadratic) cost += a_term;
   if (!material.relaxation.empty())  // in loops the law is asked twice more
     cost += a_term * (in_loops ? 3 : 1 + static_cast<double>(material.relaxation.size()));

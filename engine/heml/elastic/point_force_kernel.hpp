@@ -1,0 +1,266 @@
+#pragma once
+// The point kernel of every law (point_kernels.hpp), for files compiled for one instruction set. Each lane of a pack is
+// an element of its own:
+//
+//   nodes' positions ──transposed──► at[10] ──► for each point: virtual corners ──► law ──► forces ──► out[10] ──► back
+#include <heml/elastic/point_kernels.hpp>
+#include <heml/elastic/tension.hpp>
+#include <heml/materials/law_packs.hpp>
+#include <heml/materials/laws.hpp>
+
+namespace heml {
+namespace {  // internal linkage: not merged with code for other processors
+
+template <class P, class L>
+struct PointForceKernel {
+  using Real = Lane<P>;
+  using Block = PointBlock<Real>;
+  using Part = Four<Real>;
+  static constexpr std::size_t lanes = P::lanes, parts = lanes / 4, constants = L::uses_I4 ? 10 : 7;
+  static_assert(parts == 1 || parts == 2);
+
+  /// node_between()
+  static constexpr std::size_t own_node[4][4] = {
+      {node_between(0, 0), node_between(0, 1), node_between(0, 2), node_between(0, 3)},
+      {node_between(1, 0), node_between(1, 1), node_between(1, 2), node_between(1, 3)},
+      {node_between(2, 0), node_between(2, 1), node_between(2, 2), node_between(2, 3)},
+      {node_between(3, 0), node_between(3, 1), node_between(3, 2), node_between(3, 3)}};
+
+  /// Quantities of the elements in the lanes.
+  struct Elements {
+    std::size_t number[lanes];  ///< inner
+    const int* nodes[lanes];
+    const Real* constant[constants];  ///< A, V, then m: of 4 points an element, [element][point]
+    P at[10][3];                      ///< positions relative to the first node
+    P shared[4][3];                   ///< what corner i of every point shares (quadratic_map.hpp)
+  };
+
+  [[gnu::always_inline]] static inline P joined(const Part* part) {
+    if constexpr (parts == 1)
+      return P(static_cast<typename P::Vector>(part[0]));
+    else
+      return P(static_cast<typename P::Vector>(__builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7)));
+  }
+
+  template <std::size_t part>
+  [[gnu::always_inline]] static inline Part part_of(const P& p) {
+    if constexpr (parts == 1)
+      return static_cast<Part>(p.v);
+    else
+      return static_cast<Part>(__builtin_shufflevector(p.v, p.v, 4 * part, 4 * part + 1, 4 * part + 2, 4 * part + 3));
+  }
+
+  [[gnu::always_inline]] static inline P pack_at(const Real* values) {
+    P p;
+    std::memcpy(&p.v, values, sizeof p.v);
+    return p;
+  }
+
+  /// 4 lanes values, [lane][point], as packs of points.
+  [[gnu::always_inline]] static inline void by_point(const Real* values, P (&of_point)[4]) {
+    if constexpr (parts == 1) {
+      Part rows[4] = {read_four(values), read_four(values + 4), read_four(values + 8), read_four(values + 12)};
+      transpose(rows);
+      for (std::size_t q = 0; q < 4; ++q) of_point[q].v = static_cast<typename P::Vector>(rows[q]);
+    } else {
+      const auto a = pack_at(values).v, b = pack_at(values + 8).v, c = pack_at(values + 16).v,
+                 d = pack_at(values + 24).v;
+      const auto ab01 = __builtin_shufflevector(a, b, 0, 4, 8, 12, 1, 5, 9, 13);
+      const auto ab23 = __builtin_shufflevector(a, b, 2, 6, 10, 14, 3, 7, 11, 15);
+      const auto cd01 = __builtin_shufflevector(c, d, 0, 4, 8, 12, 1, 5, 9, 13);
+      const auto cd23 = __builtin_shufflevector(c, d, 2, 6, 10, 14, 3, 7, 11, 15);
+      of_point[0].v = __builtin_shufflevector(ab01, cd01, 0, 1, 2, 3, 8, 9, 10, 11);
+      of_point[1].v = __builtin_shufflevector(ab01, cd01, 4, 5, 6, 7, 12, 13, 14, 15);
+      of_point[2].v = __builtin_shufflevector(ab23, cd23, 0, 1, 2, 3, 8, 9, 10, 11);
+      of_point[3].v = __builtin_shufflevector(ab23, cd23, 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+  }
+
+  [[gnu::always_inline]] static inline void read_positions(const Real* x, Elements& of) {
+    for (std::size_t a = 0; a < 10; ++a) {
+      Part axis[3][parts];
+#pragma GCC unroll 2
+      for (std::size_t k = 0; k < parts; ++k) {
+        Part rows[4];
+#pragma GCC unroll 4
+        for (std::size_t l = 0; l < 4; ++l)
+          rows[l] = read_three(x + 3 * static_cast<std::size_t>(of.nodes[4 * k + l][a]));
+        transpose(rows);
+#pragma GCC unroll 3
+        for (std::size_t i = 0; i < 3; ++i) axis[i][k] = rows[i];
+      }
+#pragma GCC unroll 3
+      for (std::size_t i = 0; i < 3; ++i) of.at[a][i] = a == 0 ? joined(axis[i]) : joined(axis[i]) - of.at[0][i];
+    }
+#pragma GCC unroll 3
+    for (std::size_t i = 0; i < 3; ++i) of.at[0][i] = P(0);
+    constexpr Real of_corner = corner_weight, of_midedge = midedge_weight;
+#pragma GCC unroll 4
+    for (std::size_t c = 0; c < 4; ++c)
+#pragma GCC unroll 3
+      for (std::size_t i = 0; i < 3; ++i) {
+        P midedges(0);
+#pragma GCC unroll 4
+        for (std::size_t d = 0; d < 4; ++d)
+          if (d != c) midedges += of.at[own_node[c][d]][i];
+        of.shared[c][i] = of_corner * of.at[c][i] + of_midedge * midedges;
+      }
+  }
+
+  [[gnu::always_inline]] static inline void virtual_corners(const Elements& of, std::size_t q, P (&y)[4][3]) {
+    constexpr Real own = own_weight;
+#pragma GCC unroll 4
+    for (std::size_t c = 0; c < 4; ++c)
+#pragma GCC unroll 3
+      for (std::size_t i = 0; i < 3; ++i) y[c][i] = of.shared[c][i] + own * of.at[own_node[q][c]][i];
+  }
+
+  /// κ̄ (J̄ − 1).
+  [[gnu::always_inline]] static inline P mean_pressure(const ElementKinematics<P> (&of_point)[4],
+                                                       const RestShape<P> (&rest)[4], const P& kappa) {
+    P whole(0), deformed(0);
+    for (std::size_t q = 0; q < 4; ++q) {
+      whole += rest[q].volume;
+      deformed += rest[q].volume * of_point[q].at.J;
+    }
+    return kappa * (deformed / whole - P(1));
+  }
+
+  [[gnu::always_inline]] static inline void read_rest(const Elements& of, RestShape<P> (&rest)[4]) {
+    for (std::size_t c = 0; c < constants; ++c) {
+      P of_point[4];
+      by_point(of.constant[c], of_point);
+#pragma GCC unroll 4
+      for (std::size_t q = 0; q < 4; ++q)
+        (c < 6 ? rest[q].A[c] : c == 6 ? rest[q].volume : rest[q].fibre[c - 7]).v = of_point[q].v;
+    }
+  }
+
+  /// Writes what the points pull at the ten nodes.
+  [[gnu::always_inline]] static inline void write(const P (&out)[10][3], const Elements& of, std::size_t count,
+                                                  Real* of_element) {
+    const auto write_part = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
+      for (std::size_t a = 0; a < 10; ++a) {
+        Part rows[4] = {part_of<k>(out[a][0]), part_of<k>(out[a][1]), part_of<k>(out[a][2]), Part{}};
+        transpose(rows);
+#pragma GCC unroll 4
+        for (std::size_t l = 0; l < 4; ++l) {
+          if (4 * k + l >= count) break;
+          Real* to = of_element + 30 * of.number[4 * k + l] + 3 * a;
+          if (a < 9) {
+            write_four(rows[l], to);  // and into the next node's, which follows
+          } else {
+            for (std::size_t i = 0; i < 3; ++i) to[i] = rows[l][i];
+          }
+        }
+      }
+    };
+    write_part(std::integral_constant<std::size_t, 0>{});
+    if constexpr (parts == 2) write_part(std::integral_constant<std::size_t, 1>{});
+  }
+
+  /// Forces of `count` elements, at most one a lane; `of`: their numbers, nodes and constants, of every lane.
+  [[gnu::always_inline]] static inline void forces(const L& law, Elements& of, const Real* x, const Real* kappa,
+                                                   std::size_t count, Mask<P>& valid, Real* of_element) {
+    read_positions(x, of);
+    RestShape<P> rest[4];
+    read_rest(of, rest);
+    ElementKinematics<P> kinematics[4];
+#pragma GCC unroll 1
+    for (std::size_t q = 0; q < 4; ++q) {
+      P y[4][3];
+      virtual_corners(of, q, y);
+      kinematics[q] =
+          element_kinematics<L::uses_I2, L::uses_J, L::uses_I4, FibreShearLaw<L>>(y[0], y[1], y[2], y[3], rest[q]);
+    }
+    Tensions<P> t[4];
+#pragma GCC unroll 1
+    for (std::size_t q = 0; q < 4; ++q) {
+      t[q] = tensions(law, kinematics[q], rest[q]);
+      valid = valid && law.valid(kinematics[q].at);
+    }
+    if constexpr (L::has_volume_term)
+      if (kappa) {
+        const P pressure = mean_pressure(kinematics, rest, pack_at(kappa));
+        for (Tensions<P>& of_point : t) of_point.wJ += pressure;
+      }
+    P out[10][3], sum[4][3];
+    for (auto& of_node : out)
+      for (P& value : of_node) value = P(0);
+    for (auto& of_corner : sum)
+      for (P& value : of_corner) value = P(0);
+    constexpr Real own = own_weight;
+#pragma GCC unroll 1
+    for (std::size_t q = 0; q < 4; ++q) {
+      P f[12];
+      forces_from_tensions<L::uses_J>(t[q], kinematics[q].e, kinematics[q].cross, f);
+#pragma GCC unroll 4
+      for (std::size_t c = 0; c < 4; ++c)
+#pragma GCC unroll 3
+        for (std::size_t i = 0; i < 3; ++i) {
+          sum[c][i] += f[3 * c + i];
+          out[own_node[q][c]][i] += own * f[3 * c + i];
+        }
+    }
+    constexpr Real of_corner = corner_weight, of_midedge = midedge_weight;
+#pragma GCC unroll 3
+    for (std::size_t i = 0; i < 3; ++i) {
+#pragma GCC unroll 4
+      for (std::size_t c = 0; c < 4; ++c) {
+        out[c][i] += of_corner * sum[c][i];
+#pragma GCC unroll 4
+        for (std::size_t d = c + 1; d < 4; ++d) out[own_node[c][d]][i] += of_midedge * (sum[c][i] + sum[d][i]);
+      }
+    }
+    write(out, of, count, of_element);
+  }
+
+  static bool run(const L& law, const Block& block, const Real* x, std::size_t begin, std::size_t end,
+                  Real* of_element) {
+    Mask<P> valid = true;
+    for (std::size_t first = begin; first < end; first += lanes) {
+      Elements of;
+      const std::size_t count = end - first < lanes ? end - first : lanes;
+      const auto in_lane = [count](std::size_t l) {
+        return l < count ? l : count - 1;
+      };  // those to spare repeat the last
+      for (std::size_t l = 0; l < lanes; ++l) {
+        of.number[l] = static_cast<std::size_t>(block.point[4 * (first + in_lane(l))]) / 4;
+        of.nodes[l] = block.nodes + 10 * of.number[l];
+      }
+      for (std::size_t c = 0; c < constants; ++c)
+        of.constant[c] = (c < 6 ? block.A[c] : c == 6 ? block.volume : block.fibre[c - 7]) + 4 * first;
+      Real last[constants][4 * lanes], kappa[lanes];
+      if (count < lanes)  // what is read must exist
+        for (std::size_t c = 0; c < constants; ++c) {
+          for (std::size_t s = 0; s < 4 * lanes; ++s) last[c][s] = of.constant[c][4 * in_lane(s / 4) + s % 4];
+          of.constant[c] = last[c];
+        }
+      if (block.kappa)
+        for (std::size_t l = 0; l < lanes; ++l) kappa[l] = block.kappa[4 * (first + in_lane(l))];
+      forces(law, of, x, block.kappa ? kappa : nullptr, count, valid, of_element);
+    }
+    return L::always_valid || valid.all();
+  }
+};
+
+/// Kernel of the law with that index in LawList, on packs of `bytes`, 8 lanes at most.
+template <class Real, class Family, std::size_t bytes>
+PointKernel<Real> point_force_kernel(std::size_t law, bool continued) {
+  constexpr std::size_t fit = bytes / sizeof(Real);
+  using P = Pack < Real, fit<8 ? static_cast<int>(fit) : 8, Family>;
+  PointKernel<Real> kernel = nullptr;
+  visit_law(law, continued, [&]<class Tag, bool with>(Tag, std::bool_constant<with>) {
+    using One = typename Tag::template Law<Real, with>;
+    using Many = typename Tag::template Law<P, with>;
+    kernel = [](const void* scalar, const PointBlock<Real>& block, const Real* x, std::size_t begin, std::size_t end,
+                Real* of_element) {
+      return PointForceKernel<P, Many>::run(broadcast<Many, P>(*static_cast<const One*>(scalar)), block, x, begin, end,
+                                            of_element);
+    };
+  });
+  return kernel;
+}
+
+}  // namespace
+}  // namespace heml

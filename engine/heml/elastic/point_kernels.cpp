@@ -1,0 +1,41 @@
+#include <heml/elastic/point_kernels.hpp>
+#include <heml/materials/energy_law.hpp>
+#include <heml/materials/laws.hpp>
+
+namespace heml {
+
+template <class Real>
+PointBlock<Real> point_block(const ElementGroup<Real>& group, const QuadraticNodes* nodes, const Real* kappa) {
+  PointBlock<Real> block{};
+  block.point = group.element.data();
+  block.nodes = nodes->data();
+  for (std::size_t i = 0; i < 6; ++i) block.A[i] = group.A[i].data();
+  block.volume = group.volume.data();
+  for (std::size_t i = 0; i < 3; ++i) block.fibre[i] = group.fibre[i].data();
+  block.kappa = kappa;
+  return block;
+}
+
+template <class Real>
+PointForces<Real> point_forces(const Material& material, bool continuation, InstructionSet isa) {
+  PointForces<Real> result;
+  if (!material.fields.empty() || find_energy_law(material.law)) return result;
+  result.instruction_set = resolve(isa);
+  with_law<Real>(material, continuation, [&]<class L>(const L& law) {
+    result.law = std::make_shared<const L>(law);
+#if HEML_X86_KERNELS
+    if (result.instruction_set == InstructionSet::avx512)
+      result.kernel = avx512_point_kernel<Real>(law_index(L::name), continuation);
+    else if (result.instruction_set == InstructionSet::avx2)
+      result.kernel = avx2_point_kernel<Real>(law_index(L::name), continuation);
+#endif
+  });
+  return result;
+}
+
+template PointBlock<float> point_block(const ElementGroup<float>&, const QuadraticNodes*, const float*);
+template PointBlock<double> point_block(const ElementGroup<double>&, const QuadraticNodes*, const double*);
+template PointForces<float> point_forces(const Material&, bool, InstructionSet);
+template PointForces<double> point_forces(const Material&, bool, InstructionSet);
+
+}  // namespace heml
