@@ -8,6 +8,7 @@ namespace heml::render {
 namespace {
 
 constexpr float ground_extent = 7;  // half the ground's side, in body radii
+constexpr GLenum colour_read_format = 0x8B9B;  // GL_IMPLEMENTATION_COLOR_READ_FORMAT of OpenGL 4.1; older ones say nothing
 constexpr int ground_grid = 36;     // squares a side, the same as in ground.vert
 
 /// Where grid line i of the ground lies, in radii from its centre; as in ground.vert.
@@ -29,16 +30,27 @@ void Background::prepare(const ViewContext& shot, const Ground& ground, const Pl
                         ground.shown,         ground.centre, ground.radius};
   if (last_ == scenery) {
     if (!is_kept_) keep(shot, ground, place);
+    if (is_used(ground)) put_back(shot, place);
     return;
   }
   last_ = scenery;
   is_kept_ = false;
 }
 
+bool Background::is_used(const Ground& ground) const { return is_kept_ && (!ground.shown || ground.is_lowest); }
+
 /// Draws into the picture and copies from there: elsewhere some pixels would be rounded in another way.
 void Background::keep(const ViewContext& shot, const Ground& ground, const Place& place) {
   const Size size{place.left + shot.size.width, place.bottom + shot.size.height};
-  if (!(kept_size_ == size)) allocate_texture(kept_, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, size);
+  if (!(kept_size_ == size)) {
+    // In the picture's own order of colours, so that a software renderer copies bytes.
+    GLint order = 0;
+    glGetIntegerv(colour_read_format, &order);
+    if (order == GL_BGRA)
+      allocate_texture(kept_, GL_RGBA8, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, size);
+    else
+      allocate_texture(kept_, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, size);
+  }
   kept_size_ = size;
   glClear(GL_DEPTH_BUFFER_BIT);
   Ground bare = ground;
@@ -50,27 +62,28 @@ void Background::keep(const ViewContext& shot, const Ground& ground, const Place
   is_kept_ = true;
 }
 
+void Background::put_back(const ViewContext& shot, const Place& place) const {
+  GLint picture = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &picture);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_frame_);
+  glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, kept_, 0);
+  const int right = place.left + shot.size.width, top = place.bottom + shot.size.height;
+  glBlitFramebuffer(place.left, place.bottom, right, top, place.left, place.bottom, right, top, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(picture));
+}
+
 void Background::draw(const ViewContext& shot, const Ground& ground) const {
-  if (!is_kept_ || (ground.shown && !ground.is_lowest)) return draw_all(shot, ground);
+  if (!is_used(ground)) return draw_all(shot, ground);
   if (ground.shown) draw_ground(shot, ground, &ground.shadowed);
-  copy_.use();
-  copy_.set("kept", 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, kept_);
-  fill();
 }
 
 void Background::draw_all(const ViewContext& shot, const Ground& ground) const {
   if (ground.shown) draw_ground(shot, ground, nullptr);
   backdrop_.use();
   backdrop_.set("aspect", shot.size.aspect());
-  fill();
-}
-
-/// All pixels at which nothing is nearer.
-void Background::fill() const {
   glBindVertexArray(empty_array_);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDrawArrays(GL_TRIANGLES, 0, 3);  // all pixels at which nothing is nearer
 }
 
 /// The squares that meet `within`; without it all.

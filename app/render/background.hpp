@@ -2,9 +2,9 @@
 // What is behind and under the body: a backdrop, and a drape with the shadows of body and tools. Software renderers
 // spend a third of a picture on them. So while camera and ground stay, both are kept without shadows, and a picture is
 //
+//   what is kept, copied, then
 //   body and tools, then
-//   the squares of the drape that shadows fall on, then
-//   what is kept, where nothing has been drawn yet,
+//   the squares of the drape that shadows fall on,
 //
 // with the same bits as if drape and backdrop were drawn.
 #include <app/render/gl_objects.hpp>
@@ -30,9 +30,9 @@ class Background {
   };
 
   Background();
-  /// Sees what is kept. Leaves any colours and depths where the view is that of the last call. Before a picture.
+  /// Before a picture: sees what is kept, and puts it into the picture. May leave any depths.
   void prepare(const ViewContext& shot, const Ground& ground, const Place& place);
-  /// Fills the rest of the picture.
+  /// Draws what the picture lacks of it.
   void draw(const ViewContext& shot, const Ground& ground) const;
 
  private:
@@ -47,17 +47,18 @@ class Background {
     bool operator==(const Scenery&) const = default;
   };
   void keep(const ViewContext& shot, const Ground& ground, const Place& place);
+  bool is_used(const Ground& ground) const;
+  void put_back(const ViewContext& shot, const Place& place) const;
   void draw_all(const ViewContext& shot, const Ground& ground) const;
   void draw_ground(const ViewContext& shot, const Ground& ground, const Eigen::AlignedBox2f* within) const;
-  void fill() const;
 
   Program ground_{"ground.vert", "ground.frag"};
   Program backdrop_{"screen.vert", "backdrop.frag"};
-  Program copy_{"screen.vert", "kept.frag"};
   VertexArray empty_array_;  // for shapes that need only gl_VertexID
   Texture no_shadow_;        // one texel
   std::optional<Scenery> last_;
   Texture kept_;
+  Framebuffer kept_frame_;  // reads from it
   Size kept_size_{0, 0};
   bool is_kept_ = false;  // of last_
 };

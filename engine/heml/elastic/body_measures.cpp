@@ -60,6 +60,7 @@ double ElasticBody<Real>::energy(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 double ElasticBody<Real>::active_energy(const Real* x, ThreadTeam& team) {
+  if (std::none_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.active; })) return 0;
   x = inner_positions(x, team);
   double sum = 0;
   for (const Part& part : parts_) {

@@ -5,9 +5,8 @@ namespace {
 
 // ns a tetrahedron, as the ForceCost of a law, of what is beside its kernel, in either precision: `heml bench terms
 // --quick`, a step with it less that of the law alone. A vectorised loop over slots, in which laws run that fans do
-// not, takes several times as long as a pass within the fans. Active stress is estimated: a third of the operations of
-// viscosity.
-constexpr double a_loop = 20, a_pass = 4, active = 6, pressure_in_loops = 22, pressure_in_fans = 6;
+// not, takes several times as long as a pass within the fans. Active stress: a muscle with it and without.
+constexpr double a_loop = 20, a_pass = 4, active = 15, pressure_in_loops = 22, pressure_in_fans = 6;
 // ns a point of quadratic elements, which shares no edges with others: `heml solve` of a block with and without.
 constexpr double a_point = 12;
 constexpr double step_alone = 2;  // its own: positions, velocities, its bound
