@@ -7,6 +7,9 @@
 namespace heml {
 namespace {
 
+/// Elements a thread, at least, of the point kernels: some ten microseconds.
+constexpr std::size_t kernel_grain = 128;
+
 /// Instruction set of the HEML_WIDE loops on this processor.
 std::string_view wide_instructions() {
 #if defined(__x86_64__)
@@ -40,25 +43,34 @@ bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& tea
   Real* corner = needs_corners ? corner_forces().data() : nullptr;
   Real* of_element = nodal_forces();
   std::atomic<bool> valid{true};
+  const auto note = [&](bool defined) {
+    if (!defined) valid.store(false, std::memory_order_relaxed);
+  };
   for (const Part& part : parts_) {
+    if (part.in_points()) continue;
     const ElementGroup<Real>& group = *part.group;
-    const auto note = [&](bool defined) {
-      if (!defined) valid.store(false, std::memory_order_relaxed);
-    };
-    if (part.in_points()) {
-      const PointBlock<Real> block =
-          point_block(group, corners.element_nodes(), part.dilatation ? part.dilatation->kappa() : nullptr);
-      team.parallel_for(group.size() / element_points, grain_ / element_points,
-                        [&](std::size_t begin, std::size_t end) {
-                          note(part.points.kernel(part.points.law.get(), block, x, begin, end, of_element));
-                        });
-      continue;
-    }
     for (const auto& term : part.terms)
       team.parallel_for(group.packets(), grain_ / group.lanes, [&](std::size_t begin, std::size_t end) {
         note(term->forces(group, y, begin, end, corner, term != part.terms.front()));
       });
   }
+  // All kernels in one loop: elements of the parts in turn.
+  std::size_t count = 0;
+  for (const Part& part : parts_) count += part.in_points() ? part.group->size() / element_points : 0;
+  team.parallel_for(count, kernel_grain, [&](std::size_t begin, std::size_t end) {
+    std::size_t first = 0;
+    for (const Part& part : parts_) {
+      if (!part.in_points()) continue;
+      const std::size_t size = part.group->size() / element_points;
+      const std::size_t from = std::max(begin, first) - first,
+                        to = std::max(std::min(end, first + size), first) - first;
+      first += size;
+      if (from >= to) continue;
+      const auto block =
+          point_block(*part.group, corners.element_nodes(), part.dilatation ? part.dilatation->kappa() : nullptr);
+      note(part.points.kernel(part.points.law.get(), block, x, from, to, of_element));
+    }
+  });
   each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
     if (!part.in_points() && !part.dilatation->add_forces(*part.group, y, begin, end, corner))
       valid.store(false, std::memory_order_relaxed);
