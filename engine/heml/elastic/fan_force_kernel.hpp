@@ -227,6 +227,12 @@ struct ForceKernel {
     add_forces(group, index, axis, work, records);
   }
 
+  /// What the next group reads, which comes from memory where a body is larger than the caches: as much as this one.
+  /// Of the last group that is beyond the end, where nothing is read.
+  [[gnu::always_inline]] static inline void prefetch(const Real* from, std::size_t count) {
+    for (std::size_t i = 0; i < count; i += 128 / sizeof(Real)) __builtin_prefetch(from + i, 0, 2);
+  }
+
   static bool block(const L& law, const FanBlock<Real>& block, const Real* x, Real* f) {
     alignas(64) Real records[8 * max_block_nodes];
     read_records<Isa>(block, x, records);
@@ -237,9 +243,11 @@ struct ForceKernel {
     for (Spoke<P>& spoke : work.spoke) spoke = {};
     for (std::size_t g = 0; g < block.groups; ++g) {
       const FanSize size = block.size[g];
+      const std::size_t shapes = (size.ring + size.tets * constants) * lanes;
+      prefetch(shape + shapes, shapes);
       run(law, size, index, shape, records, work, valid);
       index += (2 + size.ring) * lanes;
-      shape += (size.ring + size.tets * constants) * lanes;
+      shape += shapes;
     }
 
     write_forces<Isa>(block, records + 4, f);
