@@ -53,6 +53,11 @@ bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& tea
       team.parallel_for(group.packets(), grain_ / group.lanes, [&](std::size_t begin, std::size_t end) {
         note(term->forces(group, y, begin, end, corner, term != part.terms.front()));
       });
+    if (part.dilatation)
+      team.parallel_for(group.packets(), grain_ / 4 / group.lanes, [&](std::size_t begin, std::size_t end) {
+        note(part.dilatation->add_forces(group, y, begin, end, corner));
+      });
+    corners.at_nodes(group, corner_, of_element, team);
   }
   // All kernels in one loop: elements of the parts in turn.
   std::size_t count = 0;
@@ -71,12 +76,6 @@ bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& tea
       note(part.points.kernel(part.points.law.get(), block, x, from, to, of_element));
     }
   });
-  each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-    if (!part.in_points() && !part.dilatation->add_forces(*part.group, y, begin, end, corner))
-      valid.store(false, std::memory_order_relaxed);
-  });
-  for (const Part& part : parts_)
-    if (!part.in_points()) corners.at_nodes(*part.group, corner_, of_element, team);
   corners.sum(of_element, f, team);
   return valid;
 }

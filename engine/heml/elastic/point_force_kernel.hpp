@@ -221,9 +221,8 @@ struct PointForceKernel {
     for (std::size_t first = begin; first < end; first += lanes) {
       Elements of;
       const std::size_t count = end - first < lanes ? end - first : lanes;
-      const auto in_lane = [count](std::size_t l) {
-        return l < count ? l : count - 1;
-      };  // those to spare repeat the last
+      // Lanes to spare repeat the last element.
+      const auto in_lane = [count](std::size_t l) { return l < count ? l : count - 1; };
       for (std::size_t l = 0; l < lanes; ++l) {
         of.number[l] = static_cast<std::size_t>(block.point[4 * (first + in_lane(l))]) / 4;
         of.nodes[l] = block.nodes + 10 * of.number[l];
@@ -247,8 +246,8 @@ struct PointForceKernel {
 /// Kernel of the law with that index in LawList, on packs of `bytes`, 8 lanes at most.
 template <class Real, class Family, std::size_t bytes>
 PointKernel<Real> point_force_kernel(std::size_t law, bool continued) {
-  constexpr std::size_t fit = bytes / sizeof(Real);
-  using P = Pack < Real, fit<8 ? static_cast<int>(fit) : 8, Family>;
+  constexpr int fit = bytes / sizeof(Real), lanes = fit < 8 ? fit : 8;
+  using P = Pack<Real, lanes, Family>;
   PointKernel<Real> kernel = nullptr;
   visit_law(law, continued, [&]<class Tag, bool with>(Tag, std::bool_constant<with>) {
     using One = typename Tag::template Law<Real, with>;

@@ -20,8 +20,7 @@ struct PointBlock {
   const Real* A[6];      ///< 1/m²
   const Real* volume;    ///< m³
   const Real* fibre[3];  ///< 1/m, or null
-  const Real*
-      kappa;  ///< Pa, what the mean volume ratio takes of a quadratic volume term (mean_dilatation.hpp), or null
+  const Real* kappa;     ///< Pa, of a quadratic volume term at the mean volume ratio (mean_dilatation.hpp), or null
 };
 template <class Real>
 PointBlock<Real> point_block(const ElementGroup<Real>& group, const QuadraticNodes* nodes, const Real* kappa);

@@ -1,6 +1,6 @@
 #pragma once
 // The map B of one quadratic tetrahedron from its ten nodes to the virtual corners of its four integration points
-// (mesh/quadratic.hpp), and its transpose; in registers, for loops over elements and over packets of points.
+// (mesh/quadratic.hpp), and its transpose, in registers.
 //
 // Of the four nodes of a virtual corner one has the larger barycentric coordinate of its point in its weight. Corner i
 // of every point shares the rest: y_qi = y_i + own x_qi, x_qi in the middle of edge qi, or corner i itself where q is
