@@ -33,18 +33,26 @@ bool ScalarCholesky::factor(const ScalarMatrix& A) {
 }
 
 void ScalarCholesky::solve(MultiVector& b) const {
+  using Four = Eigen::Array4f;
   const std::size_t count = order_.size();
   for (std::size_t k = 0; k < count; ++k) work_[k] = b[static_cast<std::size_t>(order_[k])];
+  // Pointers of this function's own, which no store of the loops may change.
+  Four* const x = work_.data();
+  const int *const start = start_.data(), *const row = row_.data();
+  const float *const value = value_.data(), *const inverse_diagonal = inverse_diagonal_.data();
   for (std::size_t j = 0; j < count; ++j) {
-    const Eigen::Array4f y = work_[j] *= inverse_diagonal_[j];
-    for (int k = start_[j]; k < start_[j + 1]; ++k)
-      work_[static_cast<std::size_t>(row_[static_cast<std::size_t>(k)])] -= value_[static_cast<std::size_t>(k)] * y;
+    const Four y = x[j] * inverse_diagonal[j];
+    x[j] = y;
+    for (int k = start[j]; k < start[j + 1]; ++k) x[row[k]] -= value[k] * y;
   }
   for (std::size_t j = count; j-- > 0;) {
-    Eigen::Array4f y = work_[j];
-    for (int k = start_[j]; k < start_[j + 1]; ++k)
-      y -= value_[static_cast<std::size_t>(k)] * work_[static_cast<std::size_t>(row_[static_cast<std::size_t>(k)])];
-    work_[j] = y * inverse_diagonal_[j];
+    // Four sums side by side: one alone waits for each addition before the next.
+    Four sum[4] = {x[j], Four::Zero(), Four::Zero(), Four::Zero()};
+    int k = start[j];
+    for (; k + 4 <= start[j + 1]; k += 4)
+      for (int l = 0; l < 4; ++l) sum[l] -= value[k + l] * x[row[k + l]];
+    for (; k < start[j + 1]; ++k) sum[0] -= value[k] * x[row[k]];
+    x[j] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) * inverse_diagonal[j];
   }
   for (std::size_t k = 0; k < count; ++k) b[static_cast<std::size_t>(order_[k])] = work_[k];
 }

@@ -4,8 +4,8 @@
 
 namespace heml {
 namespace {
-constexpr std::size_t piece = 1024;         // rows per partial sum
-constexpr std::size_t update_grain = 4096;  // min. rows per thread, which outweigh the cost of a fork
+constexpr std::size_t piece = 256;         // rows per partial sum
+constexpr std::size_t update_grain = 512;  // min. rows per thread, which outweigh the cost of a fork
 }  // namespace
 
 SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team)
@@ -31,11 +31,12 @@ bool SinglePrecisionCG::assemble(Objective& objective, double shift) {
 /// and the pieces in double in ascending order, so the bits do not depend on the number of threads.
 template <class Part>
 double SinglePrecisionCG::sum(const Part& part) {
-  team_.parallel_for(sums_.size(), 4, [&](std::size_t begin, std::size_t end) {
+  team_.parallel_for(sums_.size(), update_grain / piece, [&](std::size_t begin, std::size_t end) {
+    const Part of_row = part;  // a copy that no store may change: its pointers stay in registers
     for (std::size_t k = begin; k < end; ++k) {
       Eigen::Array4f all = Eigen::Array4f::Zero();
       const std::size_t last = std::min(K_.rows(), (k + 1) * piece);
-      for (std::size_t row = k * piece; row < last; ++row) all += part(row);
+      for (std::size_t row = k * piece; row < last; ++row) all += of_row(row);
       sums_[k] = static_cast<double>(all.sum());
     }
   });
@@ -45,7 +46,7 @@ double SinglePrecisionCG::sum(const Part& part) {
 }
 
 double SinglePrecisionCG::dot(const MultiVector& a, const MultiVector& b) {
-  return sum([&](std::size_t row) -> Eigen::Array4f { return a[row] * b[row]; });
+  return sum([a = a.data(), b = b.data()](std::size_t row) -> Eigen::Array4f { return a[row] * b[row]; });
 }
 
 bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, LowRankUpdate& update, const Vector& r,
@@ -68,7 +69,12 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, LowRankUpdate
     const auto turn = static_cast<float>(k > 0 ? next / progress : 0);
     progress = next;
     team_.parallel_for(K_.rows(), update_grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) p_[row] = k > 0 ? z_[row] + turn * p_[row] : z_[row];
+      const Eigen::Array4f* z = z_.data();
+      Eigen::Array4f* p = p_.data();
+      if (k == 0)
+        std::copy(z + begin, z + end, p + begin);
+      else
+        for (std::size_t row = begin; row < end; ++row) p[row] = z[row] + turn * p[row];
     });
     K_.multiply(p_, q_, team_);
     update.add_product(p_, q_);
@@ -80,10 +86,10 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, LowRankUpdate
       break;
     }
     const auto step = static_cast<float>(progress / curvature);
-    square = sum([&](std::size_t row) -> Eigen::Array4f {
-      d_[row] += step * p_[row];
-      left_[row] -= step * q_[row];
-      return left_[row].square();
+    square = sum([step, d = d_.data(), left = left_.data(), p = p_.data(), q = q_.data()](std::size_t row) {
+      d[row] += step * p[row];
+      left[row] -= step * q[row];
+      return Eigen::Array4f(left[row].square());
     });
   }
   d.setZero(r.size());

@@ -40,11 +40,12 @@ class SlicedEllMatrix {
  private:
   typedef float Four __attribute__((vector_size(16)));
   static constexpr std::size_t lanes = 4;
-  static constexpr std::size_t entry_grain = 12288;  ///< min. entries per thread, which outweigh the cost of a fork
+  static constexpr std::size_t entry_grain = 4096;  ///< min. entries per thread, which outweigh the cost of a fork
 
   template <class Write>
-  [[gnu::always_inline]] inline void multiply(const MultiVector& x, const Write& write, std::size_t begin,
+  [[gnu::always_inline]] inline void multiply(const MultiVector& x, const Write& write_row, std::size_t begin,
                                               std::size_t end) const {
+    const Write write = write_row;  // a copy that no store may change: its pointers stay in registers
     for (std::size_t s = begin; s < end; ++s) {
       Four sum[lanes] = {};
       for (std::size_t k = start_[s]; k < start_[s + 1]; ++k) {

@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t vector_grain = 4096;    // min. rows per thread of loops without products
+constexpr std::size_t vector_grain = 512;     // min. rows per thread of loops without products
 constexpr double max_coarsening_ratio = 0.7;  // max. ratio of unknowns of a level to those of the finer one
 constexpr double smoothed_from = 0.2;  // the smoother damps eigenvalues from here to 1, the coarser levels the rest
 /// Weights w of the steps x += w D⁻¹(b − Ax), which together are the Chebyshev polynomial on [smoothed_from, 1].
@@ -81,9 +81,10 @@ bool SmoothedAggregation::set_inertia(double a) {
 }
 
 void SmoothedAggregation::smooth(Level& level, float weight, const MultiVector& b, MultiVector& x) const {
-  level.A.each_product(x, team_, [&](std::size_t i, const Eigen::Array4f& Ax) {
-    level.scratch[i] = x[i] + weight * level.inverse_D[i] * (b[i] - Ax);
-  });
+  level.A.each_product(
+      x, team_,
+      [weight, x = x.data(), b = b.data(), inverse_D = level.inverse_D.data(), to = level.scratch.data()](
+          std::size_t i, const Eigen::Array4f& Ax) { to[i] = x[i] + weight * inverse_D[i] * (b[i] - Ax); });
   std::swap(x, level.scratch);
 }
 
@@ -96,13 +97,19 @@ void SmoothedAggregation::cycle(std::size_t l, const MultiVector& b, MultiVector
   Level &level = levels_[l], &coarse = levels_[l + 1];
   const Hierarchy::Level& transfer = hierarchy_->levels[l];
   team_.parallel_for(x.size(), vector_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) x[i] = weights[0] * level.inverse_D[i] * b[i];
+    const float *inverse_D = level.inverse_D.data(), weight = weights[0];
+    const Eigen::Array4f* from = b.data();
+    Eigen::Array4f* to = x.data();
+    for (std::size_t i = begin; i < end; ++i) to[i] = weight * inverse_D[i] * from[i];
   });
   for (std::size_t k = 1; k < weights.size(); ++k) smooth(level, weights[k], b, x);
-  level.A.each_product(x, team_, [&](std::size_t i, const Eigen::Array4f& Ax) { level.scratch[i] = b[i] - Ax; });
-  transfer.R.each_product(level.scratch, team_, [&](std::size_t i, const Eigen::Array4f& sum) { coarse.b[i] = sum; });
+  level.A.each_product(x, team_, [b = b.data(), to = level.scratch.data()](std::size_t i, const Eigen::Array4f& Ax) {
+    to[i] = b[i] - Ax;
+  });
+  transfer.R.each_product(level.scratch, team_,
+                          [to = coarse.b.data()](std::size_t i, const Eigen::Array4f& sum) { to[i] = sum; });
   cycle(l + 1, coarse.b, coarse.x);
-  transfer.P.each_product(coarse.x, team_, [&](std::size_t i, const Eigen::Array4f& sum) { x[i] += sum; });
+  transfer.P.each_product(coarse.x, team_, [to = x.data()](std::size_t i, const Eigen::Array4f& sum) { to[i] += sum; });
   for (const float weight : weights) smooth(level, weight, b, x);
 }
 

@@ -11,9 +11,8 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t row_grain = 512;          // min. rows per thread, which outweigh the cost of waking it
-constexpr std::size_t sections_per_thread = 2;  // fewer wait longer for a late thread, more have longer borders
-constexpr int side_by_side = 4;                 // elements added together
+constexpr std::size_t row_grain = 512;  // min. rows per thread, which outweigh the cost of waking it
+constexpr int side_by_side = 4;         // elements added together
 
 using Row = Four<float>;
 
@@ -209,9 +208,10 @@ HEML_WIDE void BsrMatrix::add_wide(std::size_t begin, std::size_t end, const Rea
 
 template <class Real>
 void BsrMatrix::add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team) {
+  // One part a thread: more have longer borders, whose elements two threads compute.
   const std::size_t threads = std::min<std::size_t>(rows() / row_grain, static_cast<std::size_t>(team.limit()));
-  const std::size_t parts = std::min(std::max<std::size_t>(sections_per_thread * threads, 1), sections);
-  team.parallel_for(parts, sections_per_thread, [&](std::size_t begin, std::size_t end) {
+  const std::size_t parts = std::clamp<std::size_t>(threads, 1, sections);
+  team.parallel_for(parts, 1, [&](std::size_t begin, std::size_t end) {
     const std::size_t first = sections * begin / parts, last = sections * end / parts;
     if (has_avx2())
       add_wide(first, last, K, group);
