@@ -17,7 +17,7 @@ Real ElasticBody<Real>::max_bound(ThreadTeam& team, PacketBounds<Real>& packets,
   for (const Part& part : parts_) {
     const std::size_t end = first + part.group->packets();
     const auto due_end = std::lower_bound(due, packets.due().end(), static_cast<int>(end));
-    team.parallel_for(static_cast<std::size_t>(due_end - due), grain_ / part.group->lanes,
+    team.parallel_for(static_cast<std::size_t>(due_end - due), grain_ / 8 / part.group->lanes,
                       [&](std::size_t begin, std::size_t last) {
                         for (auto k = due + static_cast<long>(begin); k < due + static_cast<long>(last); ++k) {
                           const auto packet = static_cast<std::size_t>(*k) - first;

@@ -153,7 +153,7 @@ template <class Real>
 template <std::size_t numbers>
 void FanForces<Real>::sum_shared(Real* of_node, ThreadTeam& team) const {
   const FanLayout<Real>& fans = *layout_;
-  team.parallel_for(fans.shared_node.size(), grain_ / 2, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(fans.shared_node.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       Real sum[numbers] = {};
       for (std::size_t s = fans.shared_start[k]; s < fans.shared_start[k + 1]; ++s)

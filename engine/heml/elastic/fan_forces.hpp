@@ -93,7 +93,11 @@ class FanForces {
   void add_terms(const FanPart& part, bool continuation, Law& law) const;
   std::vector<FanTerms<Real>> terms_of_parts(const Real* pressure = nullptr) const;
   FanBlock<Real> block_at(std::size_t b, std::size_t numbers);
-  std::size_t blocks_a_thread() const { return 1 + grain_ * layout_->blocks.size() / (layout_->elements() + 1); }
+  /// At least, so that each has some grain_ elements.
+  std::size_t blocks_a_thread() const {
+    const std::size_t threads = std::max<std::size_t>(layout_->elements() / grain_, 1);
+    return std::max<std::size_t>(layout_->blocks.size() / threads, 1);
+  }
   template <std::size_t numbers>
   void sum_shared(Real* of_node, ThreadTeam& team) const;
 

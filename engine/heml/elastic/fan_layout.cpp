@@ -32,13 +32,17 @@ Chunk chunk_of(const TetMesh& mesh, std::size_t part, std::span<const int> eleme
   return chunk;
 }
 
-/// Cuts elements into a power of two of chunks, or a multiple of 16, so that threads get equal shares; doubles the
-/// number while a chunk has too many nodes.
-void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elements, std::vector<Chunk>& chunks) {
-  if (elements.empty()) return;
-  const std::size_t first = chunks.size(), size = elements.size();
+/// Number of chunks: a power of two, or a multiple of 16, so that threads get equal shares.
+std::size_t chunks_for(std::size_t elements) {
   std::size_t count = 1;
-  while (size > count * max_block_elements) count += std::min<std::size_t>(count, 16);
+  while (elements > count * max_block_elements) count += std::min<std::size_t>(count, 16);
+  return count;
+}
+
+/// Cuts elements into `count` chunks; doubles the number while a chunk has too many nodes.
+void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elements, std::size_t count,
+                std::vector<Chunk>& chunks) {
+  const std::size_t first = chunks.size(), size = elements.size();
   for (bool fits = false; !fits; count *= 2) {
     fits = true;
     chunks.resize(first);
@@ -48,6 +52,24 @@ void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elem
       fits = chunks.back().nodes.size() <= max_mesh_nodes_a_block;
     }
   }
+}
+
+/// All parts cut into chunks of about equal size. The chunks follow each other as their nodes do, whatever their part,
+/// so that the thread that runs a block has most of its nodes in its cache.
+std::vector<Chunk> chunks_of(const TetMesh& mesh, const std::vector<FanElements>& parts) {
+  std::size_t all = 0;
+  for (const FanElements& part : parts) all += part.elements.size();
+  const std::size_t count = chunks_for(all);
+  std::vector<Chunk> chunks;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const std::vector<int>& elements = parts[p].elements;
+    if (elements.empty()) continue;
+    const std::size_t share = (elements.size() * count + all / 2) / all;  // rounded
+    add_chunks(mesh, p, elements, std::max<std::size_t>(share, 1), chunks);
+  }
+  const auto middle = [](const Chunk& chunk) { return chunk.elements[chunk.elements.size() / 2]; };
+  std::sort(chunks.begin(), chunks.end(), [&](const Chunk& a, const Chunk& b) { return middle(a) < middle(b); });
+  return chunks;
 }
 
 /// Constants of one tetrahedron whose edges b0 and b1 are perpendicular to its edge a, in the order of fan_block.hpp.
@@ -236,9 +258,7 @@ FanLayout<Real> layout_of(const TetMesh& mesh, const std::vector<FanElements>& p
 template <class Real>
 FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes,
                            ThreadTeam& team) {
-  std::vector<Chunk> chunks;
-  for (std::size_t p = 0; p < parts.size(); ++p) add_chunks(mesh, p, parts[p].elements, chunks);
-  *this = layout_of(mesh, parts, std::move(chunks), lanes, FanLayout(), team);
+  *this = layout_of(mesh, parts, chunks_of(mesh, parts), lanes, FanLayout(), team);
 }
 
 template <class Real>
@@ -261,8 +281,10 @@ FanLayout<Real> FanLayout<Real>::after_edit(const TetMesh& before, const TetMesh
   std::vector<Chunk> chunks;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block& block = blocks[b];
-    if (touched[b] || of_block[b].size() != block.elements) {
-      add_chunks(mesh, block.part, of_block[b], chunks);
+    const std::size_t left = of_block[b].size();
+    if (left == 0) continue;
+    if (touched[b] || left != block.elements) {
+      add_chunks(mesh, block.part, of_block[b], chunks_for(left), chunks);
       continue;
     }
     chunks.push_back({block.part, std::move(of_block[b]), {}, b});

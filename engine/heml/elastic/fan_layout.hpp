@@ -48,7 +48,7 @@ struct FanLayout {
     std::size_t group, index, shape, place, element, shared_slot;
     std::size_t groups, own, nodes, elements;
   };
-  std::vector<Block> blocks;  ///< part after part
+  std::vector<Block> blocks;  ///< of all parts, in the order of their elements
   std::vector<FanSize> size;
   std::vector<std::uint16_t> index;
   std::vector<Real, CacheAligned<Real>> shape;

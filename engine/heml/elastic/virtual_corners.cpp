@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t element_grain = 512, gather_grain = 1024;
+constexpr std::size_t element_grain = 512, gather_grain = 600;
 
 /// Bx of elements [begin, end).
 template <class Real>

@@ -12,7 +12,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t coordinate_grain = 3 * 4096;
+constexpr std::size_t coordinate_grain = 3 * 600;
 constexpr std::size_t cached_coordinates = 2048;  // still in the first-level cache when they are read again
 
 /// Whether |v| ≤ most for all coordinates [begin, end); false where one is NaN.

@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t node_grain = 4096;
+constexpr std::size_t node_grain = 600;
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
   std::vector<Material> materials;

@@ -186,6 +186,29 @@ TEST_CASE("the layout of fans is the same whoever makes it") {
   CHECK(one.shared_slot == other.shared_slot);
 }
 
+TEST_CASE("blocks of all parts are of about equal size and follow each other as their elements do") {
+  std::mt19937_64 random(41);
+  const TetMesh mesh = irregular_box(random, {16, 14, 12});
+  std::vector<FanElements> parts(2);
+  // Part 1 is a slab in the middle of the numbers, so that its blocks lie between those of part 0.
+  const int count = static_cast<int>(mesh.tets.size());
+  for (int t = 0; t < count; ++t) parts[t > count / 3 && t < count / 3 + count / 5].elements.push_back(t);
+  ThreadTeam team(1);
+  const FanLayout<double> layout(mesh, parts, 8, team);
+  REQUIRE(layout.blocks.size() > 4);
+  CHECK(layout.blocks.front().part == 0);
+  CHECK(layout.blocks.back().part == 0);
+  int before = -1;
+  std::size_t least = layout.elements(), most = 0;
+  for (const auto& block : layout.blocks) {
+    const int middle = layout.element[block.element + block.elements / 2];
+    CHECK(middle > before);
+    before = middle;
+    least = std::min(least, block.elements), most = std::max(most, block.elements);
+  }
+  CHECK(most < 1.5 * least);
+}
+
 TEST_CASE("another law reuses the layout if its constants are the same") {
   std::mt19937_64 random(38);
   const TetMesh mesh = irregular_box(random, {4, 3, 3});
