@@ -168,7 +168,11 @@ void ElasticBody<Real>::join_parts() {
   std::vector<const ElementGroup<Real>*> groups;
   for (const Part& part : parts_) groups.push_back(&*part.group);
   joints.corners = map_corners(groups, layout_->mesh.nodes.size());
-  if (!layout_->virtual_corners) {
+  if (layout_->virtual_corners) {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (!parts_[p].in_points()) groups[p] = nullptr;
+    joints.points = PointLayout(groups, *layout_->virtual_corners);
+  } else {
     joints.force_corners = force_corners(joints.corners);
     joints.springs = Springs<Real>(layout_->mesh, spring_stiffness());
   }
@@ -265,7 +269,7 @@ void ElasticBody<Real>::make_pressure() {
 
 template <class Real>
 std::size_t ElasticBody<Real>::bytes() const {
-  std::size_t sum = layout_->bytes() + bytes_of(corner_, of_element_, virtual_x_);
+  std::size_t sum = layout_->bytes() + bytes_of(corner_, of_element_, shared_force_, virtual_x_);
   sum += bytes_of(linearisation_point_, packet_energy_, node_volume_);
   for (const Part& part : parts_) {
     sum += part.group->bytes();

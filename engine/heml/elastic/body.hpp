@@ -318,6 +318,7 @@ class ElasticBody {
     of_element_.resize(30 * layout_->virtual_corners->elements());
     return of_element_.data();
   }
+  bool virtual_corner_forces(const Real* x, Real* f, bool add, ThreadTeam& team);
   bool quadratic_forces(const Real* x, Real* f, ThreadTeam& team);
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
@@ -380,6 +381,7 @@ class ElasticBody {
   std::vector<Real> virtual_x_;            ///< scratch of inner_positions()
   std::vector<Real> corner_;               ///< corner_forces()
   std::vector<Real> of_element_;           ///< nodal_forces()
+  std::vector<Real> shared_force_;         ///< 3 a shared slot of the point layout, scratch of forces()
   std::vector<Real> linearisation_point_;  ///< 3 a node of the layout's mesh
   bool projected_ = false;                 ///< whether project() was applied
   std::vector<double> packet_energy_;      ///< scratch of energy()

@@ -7,9 +7,6 @@
 namespace heml {
 namespace {
 
-/// Elements a thread, at least, of the point kernels: some ten microseconds.
-constexpr std::size_t kernel_grain = 128;
-
 /// Instruction set of the HEML_WIDE loops on this processor.
 std::string_view wide_instructions() {
 #if defined(__x86_64__)
@@ -34,21 +31,24 @@ void ElasticBody<Real>::gather_corners(const CornerMap& corners, Real* f, bool a
   });
 }
 
-/// Of quadratic elements. A kernel goes straight from nodes to nodes; else terms add up at virtual corners.
+/// Of quadratic elements by loops over virtual corners, at which terms add up, into f; or added to it.
 template <class Real>
-bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& team) {
+bool ElasticBody<Real>::virtual_corner_forces(const Real* x, Real* f, bool add, ThreadTeam& team) {
   const VirtualCorners<Real>& corners = *layout_->virtual_corners;
-  const bool needs_corners = !std::all_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.in_points(); });
-  const Real* y = needs_corners ? inner_positions(x, team) : nullptr;
-  Real* corner = needs_corners ? corner_forces().data() : nullptr;
+  const Real* y = inner_positions(x, team);
+  Real* corner = corner_forces().data();
   Real* of_element = nodal_forces();
   std::atomic<bool> valid{true};
   const auto note = [&](bool defined) {
     if (!defined) valid.store(false, std::memory_order_relaxed);
   };
   for (const Part& part : parts_) {
-    if (part.in_points()) continue;
     const ElementGroup<Real>& group = *part.group;
+    if (part.in_points()) {  // nothing is left of these
+      for (std::size_t s = 0; s < group.size(); s += element_points)
+        std::fill_n(of_element + 30 * element_at(group, s), 30, Real(0));
+      continue;
+    }
     for (const auto& term : part.terms)
       team.parallel_for(group.packets(), grain_ / group.lanes, [&](std::size_t begin, std::size_t end) {
         note(term->forces(group, y, begin, end, corner, term != part.terms.front()));
@@ -59,24 +59,28 @@ bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& tea
       });
     corners.at_nodes(group, corner_, of_element, team);
   }
-  // All kernels in one loop: elements of the parts in turn.
-  std::size_t count = 0;
-  for (const Part& part : parts_) count += part.in_points() ? part.group->size() / element_points : 0;
-  team.parallel_for(count, kernel_grain, [&](std::size_t begin, std::size_t end) {
-    std::size_t first = 0;
-    for (const Part& part : parts_) {
-      if (!part.in_points()) continue;
-      const std::size_t size = part.group->size() / element_points;
-      const std::size_t from = std::max(begin, first) - first,
-                        to = std::max(std::min(end, first + size), first) - first;
-      first += size;
-      if (from >= to) continue;
-      const auto block =
-          point_block(*part.group, corners.element_nodes(), part.dilatation ? part.dilatation->kappa() : nullptr);
-      note(part.points.kernel(part.points.law.get(), block, x, from, to, of_element));
+  corners.sum(of_element, f, add, team);
+  return valid;
+}
+
+/// Of quadratic elements: point kernels take what they can.
+template <class Real>
+bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& team) {
+  const PointLayout& points = layout_->joints.points;
+  std::atomic<bool> valid{true};
+  shared_force_.resize(3 * points.nodes.shared_slots);
+  team.parallel_for(points.blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const Part& part = parts_[points.blocks[b].part];
+      const Real* kappa = part.dilatation ? part.dilatation->kappa() : nullptr;
+      const PointBlock<Real> block = point_block(*part.group, points, b, kappa, shared_force_.data());
+      if (!part.points.kernel(part.points.law.get(), block, x, f)) valid.store(false, std::memory_order_relaxed);
     }
   });
-  corners.sum(of_element, f, team);
+  const bool has_points = !points.blocks.empty();
+  if (has_points) points.nodes.template sum_shared<3>(shared_force_.data(), f, team);
+  const bool all_in_points = std::all_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.in_points(); });
+  if (!all_in_points && !virtual_corner_forces(x, f, has_points, team)) valid = false;
   return valid;
 }
 

@@ -75,7 +75,7 @@ void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam
       part.dilatation->add_force_differential(*part.group, x, dx, projected_, begin, end, corner);
     });
     for (const Part& part : parts_) layout_->virtual_corners->at_nodes(*part.group, corner_, nodal_forces(), team);
-    return layout_->virtual_corners->sum(of_element_.data(), out, team);
+    return layout_->virtual_corners->sum(of_element_.data(), out, false, team);
   }
   if (pressure_) pressure_->add_force_differential(x, dx, corner, team);
   gather_corners(layout_->joints.corners, out, false, team);

@@ -138,30 +138,15 @@ template <class Real>
 FanBlock<Real> FanForces<Real>::block_at(std::size_t b, std::size_t numbers) {
   const FanLayout<Real>& fans = *layout_;
   const auto& at = fans.blocks[b];
+  const NodeBlocks::Block& nodes = fans.nodes.blocks[b];
   return {&fans.size[at.group],
           at.groups,
           &fans.index[at.index],
           &fans.shape[at.shape],
-          &fans.place[at.place],
-          at.own,
-          at.nodes,
-          shared_force_.data() + numbers * at.shared_slot};
-}
-
-/// Sums what the blocks have written for shared nodes.
-template <class Real>
-template <std::size_t numbers>
-void FanForces<Real>::sum_shared(Real* of_node, ThreadTeam& team) const {
-  const FanLayout<Real>& fans = *layout_;
-  team.parallel_for(fans.shared_node.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      Real sum[numbers] = {};
-      for (std::size_t s = fans.shared_start[k]; s < fans.shared_start[k + 1]; ++s)
-        for (std::size_t i = 0; i < numbers; ++i) sum[i] += shared_force_[numbers * fans.shared_slot[s] + i];
-      Real* to = of_node + numbers * static_cast<std::size_t>(fans.shared_node[k]);
-      for (std::size_t i = 0; i < numbers; ++i) to[i] = sum[i];
-    }
-  });
+          &fans.nodes.place[nodes.place],
+          nodes.own,
+          nodes.nodes,
+          shared_force_.data() + numbers * nodes.shared_slot};
 }
 
 template <class Real>
@@ -174,7 +159,7 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
     evaluated_x_.assign(x, x + 3 * nodes_);
     evaluated_ = true;
   }
-  shared_force_.resize(3 * fans.shared_slots);
+  shared_force_.resize(3 * fans.nodes.shared_slots);
   std::atomic<bool> valid{true};
   team.parallel_for(fans.blocks.size(), blocks_a_thread(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -189,14 +174,14 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
       if (!defined) valid.store(false, std::memory_order_relaxed);
     }
   });
-  sum_shared<3>(f, team);
+  fans.nodes.template sum_shared<3>(shared_force_.data(), f, team);
   return valid;
 }
 
 template <class Real>
 void FanForces<Real>::node_volumes(const Real* x, Real* sum, ThreadTeam& team) {
   const FanLayout<Real>& fans = *layout_;
-  shared_force_.resize(3 * fans.shared_slots);
+  shared_force_.resize(3 * fans.nodes.shared_slots);
   const FanVolumeKernel<Real> kernel = fan_term_kernels<Real>(isa_).volumes;
   team.parallel_for(fans.blocks.size(), blocks_a_thread(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -204,7 +189,7 @@ void FanForces<Real>::node_volumes(const Real* x, Real* sum, ThreadTeam& team) {
       kernel(block_at(b, 1), constants, x, sum);
     }
   });
-  sum_shared<1>(sum, team);
+  fans.nodes.template sum_shared<1>(shared_force_.data(), sum, team);
 }
 
 template <class Real>
@@ -267,9 +252,8 @@ void FanForces<Real>::drop_scratch() {
 template <class Real>
 std::size_t FanForces<Real>::bytes() const {
   const FanLayout<Real>& fans = *layout_;
-  return bytes_of(fans.blocks, fans.size, fans.index, fans.shape, fans.place, fans.element, fans.shared_node,
-                  fans.shared_start, fans.shared_slot, shared_force_, evaluated_x_) +
-         state_.bytes();
+  return bytes_of(fans.blocks, fans.size, fans.index, fans.shape, fans.element, shared_force_, evaluated_x_) +
+         fans.nodes.bytes() + state_.bytes();
 }
 
 template class FanForces<float>;

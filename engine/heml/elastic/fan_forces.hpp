@@ -1,9 +1,7 @@
 #pragma once
 // Forces of elements with a uniform law: blocks of fans (elastic/fan_block.hpp), each run by the kernel of its law, or
 // by the one of its law and further terms (elastic/fan_terms.hpp).
-//
-//   blocks ──► forces of their own nodes ──► f
-//         └──► those of shared nodes ──► summed in the order of blocks ──► f
+// Blocks write the forces of their own nodes, and those of shared nodes are summed (elastic/node_blocks.hpp).
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/fan_kernels.hpp>
 #include <heml/elastic/fan_layout.hpp>
@@ -98,8 +96,6 @@ class FanForces {
     const std::size_t threads = std::max<std::size_t>(layout_->elements() / grain_, 1);
     return std::max<std::size_t>(layout_->blocks.size() / threads, 1);
   }
-  template <std::size_t numbers>
-  void sum_shared(Real* of_node, ThreadTeam& team) const;
 
   InstructionSet isa_ = InstructionSet::portable;
   std::shared_ptr<const FanLayout<Real>> layout_ = std::make_shared<const FanLayout<Real>>();  ///< shared by copies

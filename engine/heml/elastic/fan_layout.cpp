@@ -32,13 +32,6 @@ Chunk chunk_of(const TetMesh& mesh, std::size_t part, std::span<const int> eleme
   return chunk;
 }
 
-/// Number of chunks: a power of two, or a multiple of 16, so that threads get equal shares.
-std::size_t chunks_for(std::size_t elements) {
-  std::size_t count = 1;
-  while (elements > count * max_block_elements) count += std::min<std::size_t>(count, 16);
-  return count;
-}
-
 /// Cuts elements into `count` chunks; doubles the number while a chunk has too many nodes.
 void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elements, std::size_t count,
                 std::vector<Chunk>& chunks) {
@@ -57,16 +50,12 @@ void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elem
 /// All parts cut into chunks of about equal size. The chunks follow each other as their nodes do, whatever their part,
 /// so that the thread that runs a block has most of its nodes in its cache.
 std::vector<Chunk> chunks_of(const TetMesh& mesh, const std::vector<FanElements>& parts) {
-  std::size_t all = 0;
-  for (const FanElements& part : parts) all += part.elements.size();
-  const std::size_t count = chunks_for(all);
+  std::vector<std::size_t> sizes;
+  for (const FanElements& part : parts) sizes.push_back(part.elements.size());
+  const std::vector<std::size_t> counts = block_counts(sizes, max_block_elements);
   std::vector<Chunk> chunks;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::vector<int>& elements = parts[p].elements;
-    if (elements.empty()) continue;
-    const std::size_t share = (elements.size() * count + all / 2) / all;  // rounded
-    add_chunks(mesh, p, elements, std::max<std::size_t>(share, 1), chunks);
-  }
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (counts[p] > 0) add_chunks(mesh, p, parts[p].elements, counts[p], chunks);
   const auto middle = [](const Chunk& chunk) { return chunk.elements[chunk.elements.size() / 2]; };
   std::sort(chunks.begin(), chunks.end(), [&](const Chunk& a, const Chunk& b) { return middle(a) < middle(b); });
   return chunks;
@@ -206,19 +195,14 @@ void add_groups(const TetMesh& mesh, const std::vector<FanElements>& parts, cons
   }
 }
 
-/// Flags the nodes that are not the own nodes of one block. touches: number of chunks at each node.
+/// Flags the nodes that kept blocks share, which stay shared.
 template <class Real>
-std::vector<char> shared_nodes(const TetMesh& mesh, const std::vector<Chunk>& chunks, const FanLayout<Real>& before,
-                               std::vector<std::size_t>& touches) {
-  touches.assign(mesh.nodes.size(), 0);
+std::vector<char> kept_as_shared(const TetMesh& mesh, const std::vector<Chunk>& chunks, const FanLayout<Real>& before) {
   std::vector<char> shared(mesh.nodes.size(), 0);
-  for (const Chunk& chunk : chunks) {
-    for (const int n : chunk.nodes) ++touches[at(n)];
-    for (std::size_t i = chunk.kept ? before.blocks[*chunk.kept].own : chunk.nodes.size(); i < chunk.nodes.size(); ++i)
+  for (const Chunk& chunk : chunks)
+    for (std::size_t i = chunk.kept ? before.nodes.blocks[*chunk.kept].own : chunk.nodes.size(); i < chunk.nodes.size();
+         ++i)
       shared[at(chunk.nodes[i])] = 1;
-  }
-  for (std::size_t n = 0; n < shared.size(); ++n)
-    if (touches[n] != 1) shared[n] = 1;
   return shared;
 }
 
@@ -226,27 +210,13 @@ template <class Real>
 FanLayout<Real> layout_of(const TetMesh& mesh, const std::vector<FanElements>& parts, std::vector<Chunk> chunks,
                           std::size_t lanes, const FanLayout<Real>& before, ThreadTeam& team) {
   FanLayout<Real> layout;
-  std::vector<std::size_t> touches, rank(mesh.nodes.size(), 0);
-  const std::vector<char> shared = shared_nodes(mesh, chunks, before, touches);
-  layout.shared_start.push_back(0);
-  for (std::size_t n = 0; n < shared.size(); ++n) {
-    if (!shared[n]) continue;
-    rank[n] = layout.shared_node.size();
-    layout.shared_node.push_back(static_cast<int>(n));
-    layout.shared_start.push_back(layout.shared_start.back() + touches[n]);
-  }
-  layout.shared_slot.resize(layout.shared_start.back());
-  std::vector<std::size_t> fill(layout.shared_start.begin(), layout.shared_start.end() - 1);
-
-  for (Chunk& chunk : chunks) {
-    std::vector<int>& nodes = chunk.nodes;
-    const auto others = std::stable_partition(nodes.begin(), nodes.end(), [&](int n) { return !shared[at(n)]; });
-    const auto own = static_cast<std::size_t>(others - nodes.begin());
-    assert(!chunk.kept || own == before.blocks[*chunk.kept].own);
-    layout.blocks.push_back({chunk.part, 0, 0, 0, layout.place.size(), layout.element.size(), layout.shared_slots, 0,
-                             own, nodes.size(), chunk.elements.size()});
-    for (auto n = others; n != nodes.end(); ++n) layout.shared_slot[fill[rank[at(*n)]]++] = layout.shared_slots++;
-    for (const int n : nodes) layout.place.push_back(3 * static_cast<std::uint32_t>(n));
+  std::vector<std::vector<int>*> nodes;
+  for (Chunk& chunk : chunks) nodes.push_back(&chunk.nodes);
+  layout.nodes = NodeBlocks(std::move(nodes), kept_as_shared(mesh, chunks, before));
+  for (std::size_t b = 0; b < chunks.size(); ++b) {
+    const Chunk& chunk = chunks[b];
+    assert(!chunk.kept || layout.nodes.blocks[b].own == before.nodes.blocks[*chunk.kept].own);
+    layout.blocks.push_back({chunk.part, 0, 0, 0, layout.element.size(), 0, chunk.elements.size()});
     layout.element.insert(layout.element.end(), chunk.elements.begin(), chunk.elements.end());
   }
   add_groups(mesh, parts, chunks, lanes, before, layout, team);
@@ -282,14 +252,15 @@ FanLayout<Real> FanLayout<Real>::after_edit(const TetMesh& before, const TetMesh
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block& block = blocks[b];
     const std::size_t left = of_block[b].size();
-    if (left == 0) continue;
     if (touched[b] || left != block.elements) {
-      add_chunks(mesh, block.part, of_block[b], chunks_for(left), chunks);
+      const std::size_t count = block_counts({left}, max_block_elements)[0];
+      if (count > 0) add_chunks(mesh, block.part, of_block[b], count, chunks);
       continue;
     }
     chunks.push_back({block.part, std::move(of_block[b]), {}, b});
-    for (std::size_t k = 0; k < block.nodes; ++k)
-      chunks.back().nodes.push_back(static_cast<int>(place[block.place + k] / 3));
+    const NodeBlocks::Block& old = nodes.blocks[b];
+    for (std::size_t k = 0; k < old.nodes; ++k)
+      chunks.back().nodes.push_back(static_cast<int>(nodes.place[old.place + k] / 3));
   }
   return layout_of(mesh, parts, std::move(chunks), lanes, *this, team);
 }
@@ -297,8 +268,9 @@ FanLayout<Real> FanLayout<Real>::after_edit(const TetMesh& before, const TetMesh
 template <class Real>
 double FanLayout<Real>::bytes_per_tet() const {
   const std::size_t bytes = sizeof(FanSize) * size.size() + sizeof(std::uint16_t) * index.size() +
-                            sizeof(Real) * shape.size() + (sizeof(std::uint32_t) + 6 * sizeof(Real)) * place.size() +
-                            (sizeof(std::size_t) + 3 * sizeof(Real)) * shared_slots;
+                            sizeof(Real) * shape.size() +
+                            (sizeof(std::uint32_t) + 6 * sizeof(Real)) * nodes.place.size() +
+                            (sizeof(std::size_t) + 3 * sizeof(Real)) * nodes.shared_slots;
   return element.empty() ? 0 : static_cast<double>(bytes) / static_cast<double>(element.size());
 }
 

@@ -12,6 +12,7 @@
 #include <functional>
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/fan_block.hpp>
+#include <heml/elastic/node_blocks.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <new>
 #include <vector>
@@ -45,21 +46,15 @@ struct FanLayout {
   /// Where a block's data begin in the lists below.
   struct Block {
     std::size_t part;  ///< index into the list of FanElements
-    std::size_t group, index, shape, place, element, shared_slot;
-    std::size_t groups, own, nodes, elements;
+    std::size_t group, index, shape, element;
+    std::size_t groups, elements;
   };
   std::vector<Block> blocks;  ///< of all parts, in the order of their elements
   std::vector<FanSize> size;
   std::vector<std::uint16_t> index;
   std::vector<Real, CacheAligned<Real>> shape;
-  std::vector<std::uint32_t> place;
+  NodeBlocks nodes;          ///< of the same blocks
   std::vector<int> element;  ///< inner numbers of each block's elements, for edits
-
-  // Nodes that are no block's own: those of several blocks, and those of none.
-  std::vector<int> shared_node;           ///< inner numbers, ascending
-  std::vector<std::size_t> shared_start;  ///< #shared_node + 1
-  std::vector<std::size_t> shared_slot;   ///< of node k: shared_start[k] .. shared_start[k+1], ascending by block
-  std::size_t shared_slots = 0;
 
   FanLayout() = default;
   /// mesh: in inner order, positive volumes. lanes: of the kernel that will run. The result does not depend on the

@@ -123,7 +123,9 @@ void FanState<Real>::find_places(const FanLayout<Real>& layout, std::size_t lane
   places_.clear(), place_start_.clear();
   std::vector<Found> elements, in_fans;
   std::vector<Nodes> order;  // p q r_i r_i+1 of in_fans[k].at
-  for (const auto& block : layout.blocks) {
+  for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
+    const auto& block = layout.blocks[b];
+    const NodeBlocks::Block& block_nodes = layout.nodes.blocks[b];
     const ElementGroup<Real>& group = *slots[block.part].group;
     place_start_.push_back(places_.size());
     elements.clear(), in_fans.clear(), order.clear();
@@ -141,8 +143,8 @@ void FanState<Real>::find_places(const FanLayout<Real>& layout, std::size_t lane
           bool is_dummy = false;
           for (std::size_t c = 0; c < 4; ++c) {
             const std::size_t local = index[row[c] * lanes + l] / std::size_t{8};
-            is_dummy = is_dummy || local >= block.nodes;
-            nodes[c] = is_dummy ? -1 : static_cast<int>(layout.place[block.place + local] / 3);
+            is_dummy = is_dummy || local >= block_nodes.nodes;
+            nodes[c] = is_dummy ? -1 : static_cast<int>(layout.nodes.place[block_nodes.place + local] / 3);
           }
           if (is_dummy) continue;
           in_fans.push_back({sorted(nodes), places_.size()});

@@ -2,7 +2,7 @@
 // The point kernel of every law (point_kernels.hpp), for files compiled for one instruction set. Each lane of a pack is
 // an element of its own:
 //
-//   nodes' positions ──transposed──► at[10] ──► for each point: virtual corners ──► law ──► forces ──► out[10] ──► back
+//   records of nodes ──transposed──► at[10] ──► for each point: virtual corners ──► law ──► forces ──► out[10] ──► back
 #include <heml/elastic/point_kernels.hpp>
 #include <heml/elastic/tension.hpp>
 #include <heml/materials/law_packs.hpp>
@@ -28,8 +28,7 @@ struct PointForceKernel {
 
   /// Quantities of the elements in the lanes.
   struct Elements {
-    std::size_t number[lanes];  ///< inner
-    const int* nodes[lanes];
+    const std::uint16_t* index[lanes];
     const Real* constant[constants];  ///< A, V, then m: of 4 points an element, [element][point]
     P at[10][3];                      ///< positions relative to the first node
     P shared[4][3];                   ///< what corner i of every point shares (quadratic_map.hpp)
@@ -76,15 +75,14 @@ struct PointForceKernel {
     }
   }
 
-  [[gnu::always_inline]] static inline void read_positions(const Real* x, Elements& of) {
+  [[gnu::always_inline]] static inline void read_positions(const Real* records, Elements& of) {
     for (std::size_t a = 0; a < 10; ++a) {
       Part axis[3][parts];
 #pragma GCC unroll 2
       for (std::size_t k = 0; k < parts; ++k) {
         Part rows[4];
 #pragma GCC unroll 4
-        for (std::size_t l = 0; l < 4; ++l)
-          rows[l] = read_three(x + 3 * static_cast<std::size_t>(of.nodes[4 * k + l][a]));
+        for (std::size_t l = 0; l < 4; ++l) rows[l] = read_four(records + of.index[4 * k + l][a]);
         transpose(rows);
 #pragma GCC unroll 3
         for (std::size_t i = 0; i < 3; ++i) axis[i][k] = rows[i];
@@ -136,33 +134,29 @@ struct PointForceKernel {
     }
   }
 
-  /// Writes what the points pull at the ten nodes.
-  [[gnu::always_inline]] static inline void write(const P (&out)[10][3], const Elements& of, std::size_t count,
-                                                  Real* of_element) {
-    const auto write_part = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
+  /// Adds what the points pull at the ten nodes to their records, one lane after the other.
+  [[gnu::always_inline]] static inline void add(const P (&out)[10][3], const Elements& of, std::size_t count,
+                                                Real* records) {
+    const auto add_part = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
       for (std::size_t a = 0; a < 10; ++a) {
         Part rows[4] = {part_of<k>(out[a][0]), part_of<k>(out[a][1]), part_of<k>(out[a][2]), Part{}};
         transpose(rows);
 #pragma GCC unroll 4
         for (std::size_t l = 0; l < 4; ++l) {
           if (4 * k + l >= count) break;
-          Real* to = of_element + 30 * of.number[4 * k + l] + 3 * a;
-          if (a < 9) {
-            write_four(rows[l], to);  // and into the next node's, which follows
-          } else {
-            for (std::size_t i = 0; i < 3; ++i) to[i] = rows[l][i];
-          }
+          Real* const force = records + of.index[4 * k + l][a] + 4;
+          write_four(read_four(force) + rows[l], force);
         }
       }
     };
-    write_part(std::integral_constant<std::size_t, 0>{});
-    if constexpr (parts == 2) write_part(std::integral_constant<std::size_t, 1>{});
+    add_part(std::integral_constant<std::size_t, 0>{});
+    if constexpr (parts == 2) add_part(std::integral_constant<std::size_t, 1>{});
   }
 
-  /// Forces of `count` elements, at most one a lane; `of`: their numbers, nodes and constants, of every lane.
-  [[gnu::always_inline]] static inline void forces(const L& law, Elements& of, const Real* x, const Real* kappa,
-                                                   std::size_t count, Mask<P>& valid, Real* of_element) {
-    read_positions(x, of);
+  /// Adds the forces of `count` elements, at most one a lane; `of`: their nodes and constants, of every lane.
+  [[gnu::always_inline]] static inline void add_forces(const L& law, Elements& of, const Real* kappa, std::size_t count,
+                                                       Mask<P>& valid, Real* records) {
+    read_positions(records, of);
     RestShape<P> rest[4];
     read_rest(of, rest);
     ElementKinematics<P> kinematics[4];
@@ -212,21 +206,31 @@ struct PointForceKernel {
         for (std::size_t d = c + 1; d < 4; ++d) out[own_node[c][d]][i] += of_midedge * (sum[c][i] + sum[d][i]);
       }
     }
-    write(out, of, count, of_element);
+    add(out, of, count, records);
   }
 
-  static bool run(const L& law, const Block& block, const Real* x, std::size_t begin, std::size_t end,
-                  Real* of_element) {
+  /// Begins the records of nodes whose places ascend. It reads four numbers of a node, of the last, which may end the
+  /// array, three.
+  [[gnu::always_inline]] static inline void read_nodes(const std::uint32_t* place, std::size_t count, const Real* x,
+                                                       Real* record) {
+#pragma GCC unroll 4
+    for (std::size_t n = 0; n < count; ++n, record += 8) {
+      write_four(n + 1 < count ? read_four(x + place[n]) : read_three(x + place[n]), record);
+      write_four(Part{}, record + 4);
+    }
+  }
+
+  static bool run(const L& law, const Block& block, const Real* x, Real* f) {
+    alignas(64) Real records[8 * 10 * max_point_block_elements];
+    read_nodes(block.place, block.own, x, records);
+    read_nodes(block.place + block.own, block.nodes - block.own, x, records + 8 * block.own);
     Mask<P> valid = true;
-    for (std::size_t first = begin; first < end; first += lanes) {
+    for (std::size_t first = 0; first < block.elements; first += lanes) {
       Elements of;
-      const std::size_t count = end - first < lanes ? end - first : lanes;
+      const std::size_t left = block.elements - first, count = left < lanes ? left : lanes;
       // Lanes to spare repeat the last element.
       const auto in_lane = [count](std::size_t l) { return l < count ? l : count - 1; };
-      for (std::size_t l = 0; l < lanes; ++l) {
-        of.number[l] = static_cast<std::size_t>(block.point[4 * (first + in_lane(l))]) / 4;
-        of.nodes[l] = block.nodes + 10 * of.number[l];
-      }
+      for (std::size_t l = 0; l < lanes; ++l) of.index[l] = block.index + 10 * (first + in_lane(l));
       for (std::size_t c = 0; c < constants; ++c)
         of.constant[c] = (c < 6 ? block.A[c] : c == 6 ? block.volume : block.fibre[c - 7]) + 4 * first;
       Real last[constants][4 * lanes], kappa[lanes];
@@ -237,7 +241,11 @@ struct PointForceKernel {
         }
       if (block.kappa)
         for (std::size_t l = 0; l < lanes; ++l) kappa[l] = block.kappa[4 * (first + in_lane(l))];
-      forces(law, of, x, block.kappa ? kappa : nullptr, count, valid, of_element);
+      add_forces(law, of, block.kappa ? kappa : nullptr, count, valid, records);
+    }
+    for (std::size_t n = 0; n < block.nodes; ++n) {
+      Real* const to = n < block.own ? f + block.place[n] : block.shared_force + 3 * (n - block.own);
+      for (std::size_t i = 0; i < 3; ++i) to[i] = records[8 * n + 4 + i];
     }
     return L::always_valid || valid.all();
   }
@@ -252,10 +260,8 @@ PointKernel<Real> point_force_kernel(std::size_t law, bool continued) {
   visit_law(law, continued, [&]<class Tag, bool with>(Tag, std::bool_constant<with>) {
     using One = typename Tag::template Law<Real, with>;
     using Many = typename Tag::template Law<P, with>;
-    kernel = [](const void* scalar, const PointBlock<Real>& block, const Real* x, std::size_t begin, std::size_t end,
-                Real* of_element) {
-      return PointForceKernel<P, Many>::run(broadcast<Many, P>(*static_cast<const One*>(scalar)), block, x, begin, end,
-                                            of_element);
+    kernel = [](const void* scalar, const PointBlock<Real>& block, const Real* x, Real* f) {
+      return PointForceKernel<P, Many>::run(broadcast<Many, P>(*static_cast<const One*>(scalar)), block, x, f);
     };
   });
   return kernel;

@@ -5,14 +5,22 @@
 namespace heml {
 
 template <class Real>
-PointBlock<Real> point_block(const ElementGroup<Real>& group, const QuadraticNodes* nodes, const Real* kappa) {
+PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout& layout, std::size_t number,
+                             const Real* kappa, Real* of_slot) {
+  const PointLayout::Block& at = layout.blocks[number];
+  const NodeBlocks::Block& nodes = layout.nodes.blocks[number];
+  const std::size_t slot = element_points * at.first;
   PointBlock<Real> block{};
-  block.point = group.element.data();
-  block.nodes = nodes->data();
-  for (std::size_t i = 0; i < 6; ++i) block.A[i] = group.A[i].data();
-  block.volume = group.volume.data();
-  for (std::size_t i = 0; i < 3; ++i) block.fibre[i] = group.fibre[i].data();
-  block.kappa = kappa;
+  block.elements = at.elements;
+  block.index = &layout.index[at.index];
+  for (std::size_t i = 0; i < 6; ++i) block.A[i] = group.A[i].data() + slot;
+  block.volume = group.volume.data() + slot;
+  for (std::size_t i = 0; i < 3; ++i) block.fibre[i] = group.fibre[i].empty() ? nullptr : &group.fibre[i][slot];
+  block.kappa = kappa ? kappa + slot : nullptr;
+  block.place = &layout.nodes.place[nodes.place];
+  block.own = nodes.own;
+  block.nodes = nodes.nodes;
+  block.shared_force = of_slot + 3 * nodes.shared_slot;
   return block;
 }
 
@@ -33,8 +41,10 @@ PointForces<Real> point_forces(const Material& material, bool continuation, Inst
   return result;
 }
 
-template PointBlock<float> point_block(const ElementGroup<float>&, const QuadraticNodes*, const float*);
-template PointBlock<double> point_block(const ElementGroup<double>&, const QuadraticNodes*, const double*);
+template PointBlock<float> point_block(const ElementGroup<float>&, const PointLayout&, std::size_t, const float*,
+                                       float*);
+template PointBlock<double> point_block(const ElementGroup<double>&, const PointLayout&, std::size_t, const double*,
+                                        double*);
 template PointForces<float> point_forces(const Material&, bool, InstructionSet);
 template PointForces<double> point_forces(const Material&, bool, InstructionSet);
 

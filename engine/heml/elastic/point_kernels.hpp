@@ -3,34 +3,39 @@
 // instruction set has a file of its own (engine/CMakeLists.txt); loops over virtual corners (group_loops.hpp) do the
 // rest: other terms, laws by expression, parameters by element, processors without AVX2.
 #include <heml/elastic/instruction_set.hpp>
+#include <heml/elastic/point_layout.hpp>
 #include <heml/elastic/quadratic_map.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
 
 namespace heml {
 
-/// The elements of a group as a kernel sees them. Plain data only: files compiled for other instruction sets share no
-/// inline code with the rest.
+/// Elements of a group that follow each other, and their nodes. Plain data only: files
+/// compiled for other instruction sets share no inline code with the rest.
 ///
-///   element k of the group is that of slots 4k .. 4k + 3, one a point:  A | . . . . | . . . . |  and so V and m
+///   element k is that of four slots, one a point:  A | . . . . | . . . . |  and so V and m
+///   record:  x y z · f f f ·                       of each of the block's nodes, on the kernel's stack
 template <class Real>
 struct PointBlock {
-  const int* point;      ///< of each slot, 4 · element + point
-  const int* nodes;      ///< 10 an element, by its inner number
-  const Real* A[6];      ///< 1/m²
-  const Real* volume;    ///< m³
-  const Real* fibre[3];  ///< 1/m, or null
-  const Real* kappa;     ///< Pa, of a quadratic volume term at the mean volume ratio (mean_dilatation.hpp), or null
+  std::size_t elements;
+  const std::uint16_t* index;  ///< 10 an element: where the record of each node begins, in Reals
+  const Real* A[6];            ///< 1/m²
+  const Real* volume;          ///< m³
+  const Real* fibre[3];        ///< 1/m, or null
+  const Real* kappa;  ///< Pa, of a quadratic volume term at the mean volume ratio (mean_dilatation.hpp), or null
+  const std::uint32_t* place;  ///< 3 n of the block's nodes n: its own first, then those shared with other blocks
+  std::size_t own, nodes;      ///< number of own nodes, whose forces are written to f directly, and of all
+  Real* shared_force;          ///< 3 a shared node, summed later in the order of blocks
 };
+/// kappa: of the elements of the group. of_slot: 3 a slot of the layout's shared nodes.
 template <class Real>
-PointBlock<Real> point_block(const ElementGroup<Real>& group, const QuadraticNodes* nodes, const Real* kappa);
+PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout& layout, std::size_t block,
+                             const Real* kappa, Real* of_slot);
 
-/// Writes what elements [begin, end) of a group pull at their nodes into of_element (30 #T, see VirtualCorners::sum());
-/// other elements keep theirs. x: 3 #V, m. `law`: as a struct of Real. Returns whether the law is defined at all
-/// points. Bits do not depend on the ranges; threads may call it on disjoint ones.
+/// Writes the forces (N) of a block at positions x (3 #V, m) into f (3 #V) and shared_force, overwritten. `law`: as a
+/// struct of Real. Returns whether the law is defined at all points. Threads may call it on different blocks.
 template <class Real>
-using PointKernel = bool (*)(const void* law, const PointBlock<Real>& block, const Real* x, std::size_t begin,
-                             std::size_t end, Real* of_element);
+using PointKernel = bool (*)(const void* law, const PointBlock<Real>& block, const Real* x, Real* f);
 
 /// The law of a material that point kernels take, else null; and the kernel, null where the processor or `portable` has
 /// none and loops over virtual corners compute the same.

@@ -85,13 +85,13 @@ void VirtualCorners<Real>::at_nodes(const ElementGroup<Real>& group, const std::
 }
 
 template <class Real>
-void VirtualCorners<Real>::sum(const Real* of_element, Real* f, ThreadTeam& team) const {
+void VirtualCorners<Real>::sum(const Real* of_element, Real* f, bool add, ThreadTeam& team) const {
   team.parallel_for(nodes(), gather_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Real sum[3] = {0, 0, 0};
       for (std::size_t k = start_[n]; k < start_[n + 1]; ++k)
         for (std::size_t i = 0; i < 3; ++i) sum[i] += of_element[3 * places_[k] + i];
-      for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] = sum[i];
+      for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] = add ? f[3 * n + i] + sum[i] : sum[i];
     }
   });
 }

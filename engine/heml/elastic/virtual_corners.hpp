@@ -28,8 +28,8 @@ class VirtualCorners {
   /// Bᵀh of each element of a group, 3 a node of its, into of_element (30 #T); h: corner forces of all slots. Every
   /// element's points are consecutive slots of one group.
   void at_nodes(const ElementGroup<Real>& group, const std::vector<Real>& h, Real* of_element, ThreadTeam& team) const;
-  /// Writes the sums of of_element at the nodes into f (3 #V).
-  void sum(const Real* of_element, Real* f, ThreadTeam& team) const;
+  /// Writes the sums of of_element at the nodes into f (3 #V), or adds them.
+  void sum(const Real* of_element, Real* f, bool add, ThreadTeam& team) const;
 
   /// Lumped masses (#V, kg) that are positive: 1/36 of an element's on a corner, 4/27 on a mid-edge node (scaled from
   /// the diagonal of the consistent matrix: Hinton, Rock & Zienkiewicz 1976). element_mass: #T.
@@ -40,7 +40,6 @@ class VirtualCorners {
   std::size_t nodes() const { return start_.size() - 1; }
   std::size_t elements() const { return nodes_.size(); }
   const QuadraticNodes& nodes_of(std::size_t element) const { return nodes_[element]; }
-  const QuadraticNodes* element_nodes() const { return nodes_.data(); }  ///< #T
   std::size_t bytes() const { return bytes_of(nodes_, start_, places_); }
 
  private:

@@ -180,8 +180,10 @@ TEST_CASE("blocks that an edit does not touch keep their layout") {
     if (old.elements != now.elements) continue;
     ++same;
     CHECK(old.groups == now.groups);
-    CHECK(old.own == now.own);
-    CHECK(std::equal(&before.place[old.place], &before.place[old.place] + old.nodes, &after.place[now.place]));
+    const NodeBlocks::Block &nodes = before.nodes.blocks[b], &nodes_now = after.nodes.blocks[b];
+    CHECK(nodes.own == nodes_now.own);
+    const auto* const place = &before.nodes.place[nodes.place];
+    CHECK(std::equal(place, place + nodes.nodes, &after.nodes.place[nodes_now.place]));
     CHECK(before.index[old.index] == after.index[now.index]);
     CHECK(before.shape[old.shape] == after.shape[now.shape]);
   }

@@ -182,8 +182,8 @@ TEST_CASE("the layout of fans is the same whoever makes it") {
   CHECK(one.size == other.size);
   CHECK(one.index == other.index);
   CHECK(one.shape == other.shape);
-  CHECK(one.place == other.place);
-  CHECK(one.shared_slot == other.shared_slot);
+  CHECK(one.nodes.place == other.nodes.place);
+  CHECK(one.nodes.shared_slot == other.nodes.shared_slot);
 }
 
 TEST_CASE("blocks of all parts are of about equal size and follow each other as their elements do") {

@@ -96,6 +96,38 @@ TEST_CASE("point kernels: mean dilatation of every law with a volume term") {
   CHECK(seen >= 5);
 }
 
+TEST_CASE("point kernels: bodies of several blocks, which share nodes") {
+  std::mt19937_64 random(65);
+  Sample sample(random);
+  sample.body.mesh = make_box(Vec3(0.1, 0.08, 0.06), {6, 6, 5});
+  sample.body.midedges = add_midedge_nodes(sample.body.mesh);
+  sample.body.x.clear();
+  for (const Vec3& X : sample.body.mesh.nodes) {
+    const Vec3 moved = X + test::random_vector(random, 0.0005);
+    sample.body.x.insert(sample.body.x.end(), {moved.x(), moved.y(), moved.z()});
+  }
+  sample.material_of.assign(sample.body.mesh.tets.size(), 0);
+  for (std::size_t t = 0; t < sample.material_of.size(); ++t) sample.material_of[t] = t % 3 == 0 || t > 700;
+  CHECK(sample.material_of.size() > 3 * max_point_block_elements);
+  check_law<double>(sample, sample_material("neo_hookean"), false, false, 1e-12);
+  check_law<float>(sample, sample_material("neo_hookean"), false, false, 2e-4);
+  check_law<double>(sample, sample_material("neo_hookean_iso"), false, true, 1e-12);
+  // Beside a part in loops.
+  ThreadTeam team(1), many(3);
+  Material plain = sample_material("neo_hookean"), viscous = plain;
+  viscous.volume_term = VolumeTerm::quadratic, viscous.viscosity = 1;
+  std::vector<double> f(sample.body.x.size()), again(f.size()), expected(f.size());
+  const auto mixed = sample.of<double>({plain, viscous}, false, false, instruction_sets().back());
+  mixed->forces(sample.body.x.data(), f.data(), team);
+  mixed->linearise(sample.body.x.data(), team);
+  mixed->force_differential(sample.body.x.data(), again.data(), team);  // writes what every element pulls
+  mixed->forces(sample.body.x.data(), again.data(), many);
+  CHECK(f == again);
+  sample.of<double>({plain, viscous}, false, false, InstructionSet::portable)
+      ->forces(sample.body.x.data(), expected.data(), team);
+  for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - expected[i]) <= 1e-12 * test::largest(expected));
+}
+
 TEST_CASE("point kernels: an undefined law is told of one element, whichever lane it is in") {
   std::mt19937_64 random(63);
   Sample sample(random);
