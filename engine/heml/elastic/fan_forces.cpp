@@ -11,6 +11,8 @@
 namespace heml {
 namespace {
 
+constexpr std::size_t element_grain = 1024;  // min. elements per thread, which outweigh the cost of a fork
+
 FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape) {
   FanElements result{*part.elements, shape, {}};
   if (shape != FanShape::fibre) return result;
@@ -131,6 +133,13 @@ bool FanForces<Real>::update_layout(const TetMesh& before, const TetMesh& mesh, 
   forget_state();
   nodes_ = mesh.nodes.size();
   return true;
+}
+
+/// At least, so that each has some element_grain elements.
+template <class Real>
+std::size_t FanForces<Real>::blocks_a_thread() const {
+  const std::size_t threads = std::max<std::size_t>(layout_->elements() / element_grain, 1);
+  return std::max<std::size_t>(layout_->blocks.size() / threads, 1);
 }
 
 /// A block whose shared nodes get so many numbers each.

@@ -72,8 +72,6 @@ class FanForces {
   std::size_t bytes() const;
 
  private:
-  static constexpr std::size_t grain_ = 2048;  ///< min. elements per thread, which outweigh the cost of waking it
-
   struct Law {
     FanKernel<Real> kernel;
     std::shared_ptr<const void> law;
@@ -91,11 +89,7 @@ class FanForces {
   void add_terms(const FanPart& part, bool continuation, Law& law) const;
   std::vector<FanTerms<Real>> terms_of_parts(const Real* pressure = nullptr) const;
   FanBlock<Real> block_at(std::size_t b, std::size_t numbers);
-  /// At least, so that each has some grain_ elements.
-  std::size_t blocks_a_thread() const {
-    const std::size_t threads = std::max<std::size_t>(layout_->elements() / grain_, 1);
-    return std::max<std::size_t>(layout_->blocks.size() / threads, 1);
-  }
+  std::size_t blocks_a_thread() const;
 
   InstructionSet isa_ = InstructionSet::portable;
   std::shared_ptr<const FanLayout<Real>> layout_ = std::make_shared<const FanLayout<Real>>();  ///< shared by copies

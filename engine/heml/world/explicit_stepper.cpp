@@ -12,7 +12,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t coordinate_grain = 3 * 600;
+constexpr std::size_t coordinate_grain = 3 * 400;
 constexpr std::size_t cached_coordinates = 2048;  // still in the first-level cache when they are read again
 
 /// Whether |v| ≤ most for all coordinates [begin, end); false where one is NaN.
@@ -55,6 +55,7 @@ bool second_half(Real h, Real damping, const Real* inverse_mass, const Real* f, 
 template <class Real>
 std::optional<StopReason> ExplicitStepper<Real>::advance(double until, long most) {
   for (long done = 0; s_.state.time < until && done < most && !s_.interrupted; ++done) {
+    const StepOnTrial on_trial(trial_, s_.team);
     const double left = until - s_.state.time;
     double h = left;  // a given step is a whole tick
     if (!s_.setup->solver.step) {

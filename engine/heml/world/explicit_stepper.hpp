@@ -1,6 +1,7 @@
 #pragma once
 // Steps of the explicit methods (dynamics/integrator_list.hpp).
 #include <heml/world/simulation.hpp>
+#include <heml/world/thread_trial.hpp>
 #include <limits>
 
 namespace heml {
@@ -22,6 +23,7 @@ class ExplicitStepper {
   std::string why_no_step() const;
 
   Simulation<Real>& s_;
+  ThreadTrial trial_;
 };
 
 }  // namespace heml

@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t node_grain = 600;
+constexpr std::size_t node_grain = 400;
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
   std::vector<Material> materials;
