@@ -5,6 +5,7 @@
 //
 //   blocks ──► own nodes ──► f
 //         └──► slots of shared nodes ──► summed in the order of blocks ──► f
+#include <cstdint>
 #include <heml/base/thread_team.hpp>
 #include <heml/math/bytes.hpp>
 #include <vector>
@@ -55,7 +56,7 @@ struct NodeBlocks {
   bool operator==(const NodeBlocks&) const = default;
 
  private:
-  static constexpr std::size_t shared_grain = 128;  ///< min. nodes per thread, near enough those that it has written
+  static constexpr std::size_t shared_grain = 128;  ///< min. nodes per thread; fewer cost less than a fork
 };
 
 }  // namespace heml

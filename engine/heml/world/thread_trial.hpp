@@ -18,7 +18,7 @@ class ThreadTrial {
   static constexpr int block = 32;      ///< steps of one kind in a row
   static constexpr int unmeasured = 8;  ///< the first of a block, before which workers may have fallen asleep
   static constexpr int trial = 4 * block;
-  static constexpr int held = 8192;             ///< steps until the next trial, of which it costs 1 % at most
+  static constexpr int held = 8192;  ///< steps until the next trial, which costs 1 % of them where threads halve a step
   static constexpr double gain = 0.97;          ///< threads that save less than the rest leave their cores to others
   static constexpr double short_step = 100e-6;  ///< s; no trial of longer steps, which are worth their threads
 
