@@ -47,8 +47,8 @@ class IncrementalPotential final : public Objective {
     potential_.add_stiffness(matrix);
     for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_of_node(mass_, n));
   }
-  bool add_stiffness_single_precision(BsrMatrix& rows) override {
-    if (!potential_.add_stiffness_single_precision(rows)) return false;
+  bool assemble_single_precision(BsrMatrix& rows) override {
+    if (!potential_.assemble_single_precision(rows)) return false;
     for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_of_node(mass_, n));
     return true;
   }

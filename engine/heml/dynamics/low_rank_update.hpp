@@ -24,6 +24,8 @@ class LowRankUpdate {
   void reset();
   void set(SmoothedAggregation& P, const std::vector<RankOneTerm>& terms);
 
+  bool empty() const { return terms_.empty(); }
+
   /// q += G Gᵀ p, #free.
   void add_product(const MultiVector& p, MultiVector& q) const;
 

@@ -49,9 +49,9 @@ class Objective {
   virtual bool is_symmetric() const { return true; }
   /// Adds the blocks of K between free nodes; the symmetric part or an approximation will do.
   virtual void add_stiffness(BlockMatrix& matrix) = 0;
-  /// Adds K between free nodes, without its rank-one terms, to a matrix in float. Returns false if K is not symmetric
+  /// Makes a matrix in float K between free nodes, without its rank-one terms. Returns false if K is not symmetric
   /// or does not fit the sparsity pattern.
-  virtual bool add_stiffness_single_precision(BsrMatrix&) { return false; }
+  virtual bool assemble_single_precision(BsrMatrix&) { return false; }
   /// The parts of K that couple few nodes each and are no elements'.
   virtual void add_rank_one_terms(std::vector<RankOneTerm>&) const {}
 };

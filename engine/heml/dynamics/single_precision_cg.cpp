@@ -19,8 +19,7 @@ SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, BsrMatrix matrix, Th
 }
 
 bool SinglePrecisionCG::assemble(Objective& objective, double shift) {
-  K_.set_zero();
-  if (!objective.add_stiffness_single_precision(K_)) return false;
+  if (!objective.assemble_single_precision(K_)) return false;
   if (shift > 0)
     for (const int n : free_.node) K_.add_diagonal(n, shift);
   K_.isolate(held_rows_);
@@ -58,12 +57,19 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, LowRankUpdate
     d_[row].setZero();
     return left_[row].square();
   });
+  // Columns of P⁻¹ that an update keeps are of a P that no step changes.
+  const bool has_own_blocks = preconditioner.levels() > 1 && update.empty();
+  if (has_own_blocks) finest_.set(K_, preconditioner.diagonal(), team_);
   const double enough = tolerance * tolerance * square;
   bool positive = true;
   double progress = 0;
   for (int k = 0; k < max_iterations && square > enough; ++k) {
-    preconditioner.apply(left_, z_);
-    update.correct(z_);
+    if (has_own_blocks) {
+      preconditioner.apply(finest_, left_, z_);
+    } else {
+      preconditioner.apply(left_, z_);
+      update.correct(z_);
+    }
     for (const int row : held_rows_) z_[static_cast<std::size_t>(row) / 3][row % 3] = 0;
     const double next = dot(left_, z_);
     const auto turn = static_cast<float>(k > 0 ? next / progress : 0);

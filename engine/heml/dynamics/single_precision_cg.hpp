@@ -29,7 +29,7 @@ class SinglePrecisionCG {
   bool solve(SmoothedAggregation& preconditioner, LowRankUpdate& update, const Vector& r, double tolerance,
              int max_iterations, Vector& d, long& iterations);
 
-  std::size_t bytes() const { return K_.bytes() + bytes_of(d_, left_, p_, q_, z_) + bytes_of(sums_); }
+  std::size_t bytes() const { return K_.bytes() + finest_.bytes() + bytes_of(d_, left_, p_, q_, z_) + bytes_of(sums_); }
 
  private:
   template <class Part>
@@ -39,6 +39,7 @@ class SinglePrecisionCG {
   const FreeNodes& free_;
   ThreadTeam& team_;
   BsrMatrix K_;
+  BlockJacobi finest_;
   MultiVector d_, left_, p_, q_, z_;
   std::vector<double> sums_;
   std::vector<int> held_rows_;  ///< 3 row + axis of held coordinates

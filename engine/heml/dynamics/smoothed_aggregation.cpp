@@ -75,6 +75,10 @@ bool SmoothedAggregation::set_inertia(double a) {
     level.inverse_D.clear();
     for (const double sum : absolute_row_sums(A)) level.inverse_D.push_back(static_cast<float>(1 / sum));
     level.A = SlicedEllMatrix(A);
+    if (l == 0) {
+      const Vector diagonal = A.diagonal();
+      diagonal_.assign(diagonal.begin(), diagonal.end());
+    }
   }
   const Hierarchy::Level& bottom = hierarchy_->levels.back();
   return bottom_.factor(a * bottom.M + bottom.L);
@@ -119,6 +123,31 @@ void SmoothedAggregation::apply(const MultiVector& r, MultiVector& z) {
   for (const std::size_t row : excluded_rows_) z[row].setZero();
 }
 
+void SmoothedAggregation::apply(const BlockJacobi& finest, const MultiVector& r, MultiVector& z) {
+  const Hierarchy::Level& transfer = hierarchy_->levels[0];
+  Level& coarse = levels_[1];
+  z.resize(r.size());
+  const MultiVector* restricted = &r;
+  if (!finest.stiff_rows().empty()) {
+    MultiVector& weighted = levels_[0].scratch;
+    weighted = r;
+    for (const auto& [row, weight] : finest.stiff_rows()) weighted[row] *= weight;
+    restricted = &weighted;
+  }
+  transfer.R.each_product(*restricted, team_,
+                          [to = coarse.b.data()](std::size_t i, const Eigen::Array4f& sum) { to[i] = sum; });
+  cycle(1, coarse.b, coarse.x);
+  transfer.P.each_product(coarse.x, team_,
+                          [&finest, r = r.data(), to = z.data()](std::size_t i, const Eigen::Array4f& sum) {
+                            to[i] = finest.apply(i, r[i]) + sum;
+                          });
+  for (const auto& [row, weight] : finest.stiff_rows()) {
+    const Eigen::Array4f own = finest.apply(row, r[row]);
+    z[row] = own + weight * (z[row] - own);
+  }
+  for (const std::size_t row : excluded_rows_) z[row].setZero();
+}
+
 void SmoothedAggregation::apply(const Vector& r, Vector& z) {
   const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps values in float's range
   Level& top = levels_.front();
@@ -133,7 +162,7 @@ void SmoothedAggregation::apply(const Vector& r, Vector& z) {
 }
 
 std::size_t SmoothedAggregation::bytes() const {
-  std::size_t sum = bottom_.bytes() + bytes_of(hierarchy_->node, hierarchy_->bare_rows, excluded_rows_);
+  std::size_t sum = bottom_.bytes() + bytes_of(diagonal_, hierarchy_->node, hierarchy_->bare_rows, excluded_rows_);
   for (const Hierarchy::Level& matrices : hierarchy_->levels)
     sum += bytes_of(matrices.L, matrices.M) + matrices.P.bytes() + matrices.R.bytes();
   for (const Level& level : levels_)

@@ -83,10 +83,12 @@ void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam
 }
 
 template <class Real>
-bool ElasticBody<Real>::add_stiffness(BsrMatrix& rows, ThreadTeam& team) const {
+bool ElasticBody<Real>::assemble(BsrMatrix& rows, ThreadTeam& team) const {
   if (pressure_ || layout_->virtual_corners) return false;
+  rows.begin_elements(team);
   for (const Part& part : parts_)
     if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), *part.group, team);
+  rows.end_elements(team);
   each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
     Mat3 B;
     for (int i = 0; i < 3; ++i)
@@ -130,8 +132,8 @@ template void ElasticBody<float>::project(Projection, ThreadTeam&);
 template void ElasticBody<double>::project(Projection, ThreadTeam&);
 template void ElasticBody<float>::force_differential(const float*, float*, ThreadTeam&);
 template void ElasticBody<double>::force_differential(const double*, double*, ThreadTeam&);
-template bool ElasticBody<float>::add_stiffness(BsrMatrix&, ThreadTeam&) const;
-template bool ElasticBody<double>::add_stiffness(BsrMatrix&, ThreadTeam&) const;
+template bool ElasticBody<float>::assemble(BsrMatrix&, ThreadTeam&) const;
+template bool ElasticBody<double>::assemble(BsrMatrix&, ThreadTeam&) const;
 template void ElasticBody<float>::element_stiffness(std::size_t, std::size_t, ElementMatrix<float>&) const;
 template void ElasticBody<double>::element_stiffness(std::size_t, std::size_t, ElementMatrix<double>&) const;
 template void ElasticBody<float>::quadratic_stiffness(std::size_t, std::size_t, QuadraticMatrix<float>&) const;

@@ -16,43 +16,41 @@ constexpr int side_by_side = 4;         // elements added together
 
 using Row = Four<float>;
 
+constexpr std::array<std::array<std::size_t, 2>, 6> corner_pairs{{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
 template <class Real>
 [[gnu::always_inline]] inline Row read_row(const Real* from) {
   return __builtin_convertvector(read_four(from), Row);
 }
 
-/// Calls put(corner a, corner b, j, columns) with column j of block (a, b) of each of four elements. k: their
-/// stiffness.
+/// Calls put(pair, j, columns) with column j of K_ab of each of four elements. k: their stiffness.
 template <class Real>
 [[gnu::always_inline]] inline void each_column(const Real* k, const auto& put) {
   constexpr std::size_t packet = ElementGroup<Real>::lanes;
-  const auto put_column = [&](std::size_t a, std::size_t b, int j, const Row(&xyz)[3]) {
+  const auto put_column = [&](std::size_t pair, int j, const Row(&xyz)[3]) {
     Row column[side_by_side] = {xyz[0], xyz[1], xyz[2], {}};
     transpose(column);
-    put(a, b, j, column);
+    put(pair, j, column);
   };
+  std::size_t pair = 0;
 #pragma GCC unroll 3
-  for (int j = 0; j < 3; ++j) {
-    Row of_corner_0[4][3] = {};  // minus the sums of the others, since corner 0 moves all edges back
+  for (std::size_t b = 1; b < 4; ++b) {
 #pragma GCC unroll 3
-    for (std::size_t b = 1; b < 4; ++b) {
-      Row sum[3] = {};
+    for (int j = 0; j < 3; ++j) {
+      Row of_corner_0[3] = {};  // minus the sum of the others, since corner 0 moves all edges back
 #pragma GCC unroll 3
       for (std::size_t a = 1; a < 4; ++a) {
         Row xyz[3];
         for (int i = 0; i < 3; ++i) {
           const int entry = edge_entry(3 * static_cast<int>(a - 1) + i, 3 * static_cast<int>(b - 1) + j);
           xyz[i] = read_row(k + packet * static_cast<std::size_t>(entry));
-          sum[i] -= xyz[i];
-          of_corner_0[a][i] -= xyz[i];
+          of_corner_0[i] -= xyz[i];
         }
-        put_column(a, b, j, xyz);
+        if (a < b) put_column(pair + a, j, xyz);
       }
-      for (int i = 0; i < 3; ++i) of_corner_0[0][i] -= sum[i];
-      put_column(0, b, j, sum);
+      put_column(pair, j, of_corner_0);
     }
-#pragma GCC unroll 4
-    for (std::size_t a = 0; a < 4; ++a) put_column(a, 0, j, of_corner_0[a]);
+    pair += b;
   }
 }
 
@@ -77,12 +75,18 @@ BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tet
     column_.insert(column_.end(), list.begin(), list.end());
     start_.push_back(static_cast<int>(column_.size()));
   }
-  block_.resize(column_.size());
+  sum_.resize(column_.size());
+  entry_.resize(9 * column_.size() + 3);
+  for (std::size_t row = 0; row < count; ++row) {
+    diagonal_.push_back(find(static_cast<int>(row), static_cast<int>(row)));
+    for (auto k = static_cast<std::size_t>(start_[row]); k < static_cast<std::size_t>(start_[row + 1]); ++k)
+      mirror_.push_back(find(column_[k], static_cast<int>(row)));
+  }
   for (const Tet& tet : tets) {
     BlockIndices& places = block_indices_.emplace_back();
-    for (std::size_t k = 0; k < 16; ++k) places[k] = find(row_of(tet[k / 4]), row_of(tet[k % 4]));
+    for (std::size_t p = 0; p < places.size(); ++p)
+      places[p] = place_of_pair(row_of(tet[corner_pairs[p][0]]), row_of(tet[corner_pairs[p][1]]));
   }
-  for (std::size_t row = 0; row < count; ++row) diagonal_.push_back(find(static_cast<int>(row), static_cast<int>(row)));
   find_sections(tets);
   set_zero();
 }
@@ -108,18 +112,24 @@ int BsrMatrix::find(int row, int column) const {
   return static_cast<int>(std::lower_bound(begin, end, column) - column_.begin());
 }
 
+int BsrMatrix::place_of_pair(int row_a, int row_b) const {
+  if (row_a < 0 || row_b < 0)
+    return row_a < 0 && row_b < 0 ? -1 : diagonal_[static_cast<std::size_t>(std::max(row_a, row_b))];
+  return find(row_a, row_b);
+}
+
 void BsrMatrix::keep_elements(const std::vector<int>& elements) {
   block_indices_ = with_elements(block_indices_, elements);
   sections_ = with_elements(sections_, elements);
 }
 
-void BsrMatrix::set_zero() { std::fill(block_.begin(), block_.end(), Block{}); }
+void BsrMatrix::set_zero() { std::fill(entry_.begin(), entry_.end(), 0.0f); }
 
 void BsrMatrix::add(int row, int column, const Mat3& B) {
   const int place = find(row, column);
   if (place < 0) return;
   for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) block_[static_cast<std::size_t>(place)].column[j][i] += static_cast<float>(B(i, j));
+    for (int i = 0; i < 3; ++i) entries(place)[3 * j + i] += static_cast<float>(B(i, j));
 }
 
 void BsrMatrix::add_edge(int a, int b, const Mat3& B) {
@@ -144,8 +154,7 @@ void BsrMatrix::add_node(int node, const Mat3& B) {
 void BsrMatrix::add_diagonal(int node, double k) {
   const int row = number_[static_cast<std::size_t>(node)];
   const int place = row < 0 ? -1 : diagonal_[static_cast<std::size_t>(row)];
-  for (int i = 0; place >= 0 && i < 3; ++i)
-    block_[static_cast<std::size_t>(place)].column[i][i] += static_cast<float>(k);
+  for (int i = 0; place >= 0 && i < 3; ++i) entries(place)[4 * i] += static_cast<float>(k);
 }
 
 void BsrMatrix::isolate(const std::vector<int>& held) {
@@ -158,18 +167,24 @@ void BsrMatrix::isolate(const std::vector<int>& held) {
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
           if (!is_held[row][i] && !is_held[column][j]) continue;
-          const float entry = block_[k].column[j][i];
-          block_[k].column[j][i] = row != column || i != j ? 0 : entry != 0 ? std::abs(entry) : 1;
+          float& entry = entry_[9 * k + 3 * j + i];
+          entry = row != column || i != j ? 0 : entry != 0 ? std::abs(entry) : 1;
         }
     }
 }
 
-/// Adds the stiffness of a group to the rows of sections [begin, end).
+void BsrMatrix::begin_elements(ThreadTeam& team) {
+  team.parallel_for(rows(), row_grain, [&](std::size_t begin, std::size_t end) {
+    std::fill(sum_.begin() + start_[begin], sum_.begin() + start_[end], Sum{});
+  });
+}
+
+/// Adds the stiffness of a group to the sums of sections [begin, end).
 template <class Real>
 [[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t begin, std::size_t end, const Real* K,
                                                      const ElementGroup<Real>& group) {
   constexpr std::size_t packet = ElementGroup<Real>::lanes;
-  static constexpr BlockIndices nowhere{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+  static constexpr BlockIndices nowhere{-1, -1, -1, -1, -1, -1};
   const SectionMask mine = (SectionMask{1} << end) - (SectionMask{1} << begin);
   const auto first = static_cast<std::size_t>(start_[first_row(begin)]);
   const auto last = static_cast<std::size_t>(start_[first_row(end)]);
@@ -184,18 +199,18 @@ template <class Real>
     }
     if (!(touched & mine)) continue;
     const Real* const k = K + edge_entries * packet * (s / packet) + s % packet;
-    const auto block_of = [&](std::size_t l, std::size_t a, std::size_t b) {
-      return static_cast<std::size_t>(static_cast<unsigned>((*places[l])[4 * a + b]));  // −1 becomes the largest
+    const auto block_of = [&](std::size_t l, std::size_t pair) {
+      return static_cast<std::size_t>(static_cast<unsigned>((*places[l])[pair]));  // −1 becomes the largest
     };
     if (!(touched & ~mine))
-      each_column(k, [&](std::size_t a, std::size_t b, int j, const Row(&column)[side_by_side]) {
-        for (std::size_t l = 0; l < side_by_side; ++l) block_[block_of(l, a, b)].column[j] += column[l];
+      each_column(k, [&](std::size_t pair, int j, const Row(&column)[side_by_side]) {
+        for (std::size_t l = 0; l < side_by_side; ++l) sum_[block_of(l, pair)].column[j] += column[l];
       });
     else
-      each_column(k, [&](std::size_t a, std::size_t b, int j, const Row(&column)[side_by_side]) {
+      each_column(k, [&](std::size_t pair, int j, const Row(&column)[side_by_side]) {
         for (std::size_t l = 0; l < side_by_side; ++l) {
-          const std::size_t block = block_of(l, a, b);
-          if (block - first < last - first) block_[block].column[j] += column[l];
+          const std::size_t block = block_of(l, pair);
+          if (block - first < last - first) sum_[block].column[j] += column[l];
         }
       });
   }
@@ -220,15 +235,56 @@ void BsrMatrix::add_elements(const Real* K, const ElementGroup<Real>& group, Thr
   });
 }
 
+[[gnu::always_inline]] inline void BsrMatrix::end_rows(std::size_t begin, std::size_t end) {
+  for (std::size_t row = begin; row < end; ++row) {
+    const auto diagonal = static_cast<std::size_t>(diagonal_[row]);
+    Column all[3] = {sum_[diagonal].column[0], sum_[diagonal].column[1], sum_[diagonal].column[2]};
+    const auto write = [&](std::size_t block, const Column(&column)[3]) {
+      for (std::size_t j = 0; j < 2; ++j) write_four(column[j], &entry_[9 * block + 3 * j]);
+      std::memcpy(&entry_[9 * block + 6], &column[2], 3 * sizeof(float));  // what follows may be another thread's
+    };
+    for (auto k = static_cast<std::size_t>(start_[row]); k < static_cast<std::size_t>(start_[row + 1]); ++k) {
+      if (k == diagonal) continue;
+      const Sum &here = sum_[k], &there = sum_[static_cast<std::size_t>(mirror_[k])];
+      Column turned[4] = {there.column[0], there.column[1], there.column[2], {}}, block[3];
+      transpose(turned);
+      for (int j = 0; j < 3; ++j) {
+        block[j] = here.column[j] + turned[j];
+        all[j] += block[j];
+      }
+      write(k, block);
+    }
+    Column turned[4] = {all[0], all[1], all[2], {}};
+    transpose(turned);
+    for (int j = 0; j < 3; ++j) all[j] = -0.5f * (all[j] + turned[j]);
+    write(diagonal, all);
+  }
+}
+
+HEML_WIDE void BsrMatrix::end_wide(std::size_t begin, std::size_t end) { end_rows(begin, end); }
+
+void BsrMatrix::end_elements(ThreadTeam& team) {
+  team.parallel_for(rows(), row_grain, [&](std::size_t begin, std::size_t end) {
+    if (has_avx2())
+      end_wide(begin, end);
+    else
+      end_rows(begin, end);
+  });
+}
+
 [[gnu::always_inline]] inline void BsrMatrix::multiply_rows(const MultiVector& x, MultiVector& y, std::size_t begin,
                                                             std::size_t end) const {
   for (std::size_t row = begin; row < end; ++row) {
     Column sum[3] = {};
     for (auto k = static_cast<std::size_t>(start_[row]); k < static_cast<std::size_t>(start_[row + 1]); ++k) {
-      const float* at = x[static_cast<std::size_t>(column_[k])].data();
-      for (int j = 0; j < 3; ++j) sum[j] += block_[k].column[j] * at[j];
+      const float* block = &entry_[9 * k];  // of each column the last number is another's
+      const Column at = read_four(x[static_cast<std::size_t>(column_[k])].data());
+      sum[0] += read_four(block) * __builtin_shufflevector(at, at, 0, 0, 0, 0);
+      sum[1] += read_four(block + 3) * __builtin_shufflevector(at, at, 1, 1, 1, 1);
+      sum[2] += read_four(block + 6) * __builtin_shufflevector(at, at, 2, 2, 2, 2);
     }
-    const Column all = sum[0] + sum[1] + sum[2];
+    Column all = sum[0] + sum[1] + sum[2];
+    all[3] = 0;
     std::memcpy(y[row].data(), &all, sizeof all);
   }
 }

@@ -4,11 +4,20 @@
 // (edge_stiffness.hpp) reads.
 //
 //   row n:   [n, n1] [n, n2] ...    n1 < n2 < ...: nodes that share an element with n, and n itself
-//   block:   x x x 0 | y y y 0 | z z z 0     its columns, one register each
+//   block:   x x x y y y z z z        its columns
 //
-// One thread assembles a row, adding elements in ascending order, so the bits do not depend on the number of threads.
-// For this the rows are divided into sections, and each element names the sections of its corners: a thread passes over
-// the elements outside its sections, and those at the border of two are computed by both.
+// Elements are added up first, each pair of corners (a, b), a < b, in one of the two blocks of their rows. Then each
+// row takes its own sums and those of the other side, transposed. The diagonal is minus the sum of the row, since no
+// translation strains an element; pairs with a corner that has no row are therefore added to the diagonal of the other:
+//
+//   sums      S_ab += K_ab          S_aa += K_ah, h without a row
+//   blocks    K_ij = S_ij + S_jiᵀ     K_ii = −sym(S_ii + Σ_j K_ij)
+//
+// Six blocks an element are read and written, not sixteen, and K is symmetric to the last bit.
+//
+// One thread adds up a row's sums, elements in ascending order, so the bits do not depend on the number of threads. For
+// this the rows are divided into sections, and each element names the sections of its corners: a thread passes over the
+// elements outside its sections, and those at the border of two are computed by both.
 #include <Eigen/Core>
 #include <cstdint>
 #include <heml/base/thread_team.hpp>
@@ -31,9 +40,12 @@ class BsrMatrix {
   void keep_elements(const std::vector<int>& elements);
 
   void set_zero();
-  /// Adds the element stiffnesses K (N/m, edge_stiffness.hpp) of a group, whose element numbers are indices into tets.
+  /// K = Σ of element stiffnesses, N/m (edge_stiffness.hpp), of groups whose element numbers are indices into tets,
+  /// over what was there: a call to begin, one for each group, and one to end.
+  void begin_elements(ThreadTeam& team);
   template <class Real>
   void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team);
+  void end_elements(ThreadTeam& team);
   /// Adds [B −B; −B B], B symmetric (N/m), between two nodes. Rows that do not exist are ignored, here and below.
   void add_edge(int a, int b, const Mat3& B);
   /// Adds B to the block of rows a and columns b, and its transpose to the other.
@@ -48,16 +60,23 @@ class BsrMatrix {
   /// y = K x, #rows.
   void multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team) const;
 
+  /// Of a row.
+  Eigen::Matrix3f diagonal_block(std::size_t row) const {
+    return Eigen::Map<const Eigen::Matrix3f>(entries(diagonal_[row]));
+  }
+
   std::size_t rows() const { return start_.size() - 1; }
-  std::size_t bytes() const { return bytes_of(number_, start_, column_, diagonal_, block_, block_indices_, sections_); }
+  std::size_t bytes() const {
+    return bytes_of(number_, start_, column_, diagonal_, mirror_, sum_, entry_, block_indices_, sections_);
+  }
 
  private:
   typedef float Column __attribute__((vector_size(16)));
-  struct Block {
-    Column column[3];
+  struct Sum {
+    Column column[3];  ///< xyz and 0
   };
-  /// Block of each pair of an element's corners, row by row; −1: no such row.
-  using BlockIndices = std::array<int, 16>;
+  /// Where K_ab of each pair of an element's corners, in the order of corner_pairs, is added; −1: nowhere.
+  using BlockIndices = std::array<int, 6>;
 
   /// Bit k: a corner has its row in section k; bit `sections`: a corner has no row.
   using SectionMask = std::uint32_t;
@@ -67,18 +86,25 @@ class BsrMatrix {
   std::size_t first_row(std::size_t section) const { return rows() * section / sections; }
   void find_sections(const std::vector<Tet>& tets);
   int find(int row, int column) const;
+  int place_of_pair(int row_a, int row_b) const;
+  float* entries(int block) { return &entry_[9 * static_cast<std::size_t>(block)]; }
+  const float* entries(int block) const { return &entry_[9 * static_cast<std::size_t>(block)]; }
   void add(int row, int column, const Mat3& B);
   template <class Real>
   void add_to(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
   template <class Real>
   void add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
+  void end_rows(std::size_t begin, std::size_t end);
+  void end_wide(std::size_t begin, std::size_t end);
   void multiply_rows(const MultiVector& x, MultiVector& y, std::size_t begin, std::size_t end) const;
   void multiply_wide(const MultiVector& x, MultiVector& y, std::size_t begin, std::size_t end) const;
 
   std::vector<int> number_;
   std::vector<int> start_, column_;
   std::vector<int> diagonal_;  ///< block of each row
-  std::vector<Block> block_;
+  std::vector<int> mirror_;    ///< of each block: that of its row and column exchanged
+  std::vector<Sum> sum_;
+  std::vector<float> entry_;                 ///< nine a block, and padding, since columns are read as four numbers
   std::vector<BlockIndices> block_indices_;  ///< #T
   std::vector<SectionMask> sections_;        ///< #T
 };

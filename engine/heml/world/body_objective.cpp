@@ -220,8 +220,9 @@ int BodyObjective<Real>::count_inverted(const Vector& x) const {
 
 template <class Real>
 bool BodyObjective<Real>::inverts_elements(const Vector& from, const Vector& to) const {
-  return (to - from).template lpNorm<Eigen::Infinity>() > long_way * model_->spacing &&
-         count_inverted(to) > count_inverted(from);
+  if ((to - from).template lpNorm<Eigen::Infinity>() <= long_way * model_->spacing) return false;
+  const int inverted = count_inverted(to);
+  return inverted > 0 && inverted > count_inverted(from);
 }
 
 template <class Real>

@@ -143,9 +143,9 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
 }
 
 template <class Real>
-bool BodyObjective<Real>::add_stiffness_single_precision(BsrMatrix& rows) {
+bool BodyObjective<Real>::assemble_single_precision(BsrMatrix& rows) {
   if (!is_symmetric()) return false;
-  if (!with_body([&](const auto& body) { return body.add_stiffness(rows, team_); })) return false;
+  if (!with_body([&](const auto& body) { return body.assemble(rows, team_); })) return false;
   add_diagonal(rows);
   return true;
 }
@@ -180,10 +180,10 @@ void BodyObjective<Real>::add_diagonal(Matrix& matrix) const {
 template void BodyObjective<float>::linearise(const Vector&, Projection);
 template void BodyObjective<float>::product(const Vector&, Vector&);
 template void BodyObjective<float>::add_stiffness(BlockMatrix&);
-template bool BodyObjective<float>::add_stiffness_single_precision(BsrMatrix&);
+template bool BodyObjective<float>::assemble_single_precision(BsrMatrix&);
 template void BodyObjective<double>::linearise(const Vector&, Projection);
 template void BodyObjective<double>::product(const Vector&, Vector&);
 template void BodyObjective<double>::add_stiffness(BlockMatrix&);
-template bool BodyObjective<double>::add_stiffness_single_precision(BsrMatrix&);
+template bool BodyObjective<double>::assemble_single_precision(BsrMatrix&);
 
 }  // namespace heml

@@ -352,7 +352,9 @@ void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vecto
   if (!at_start && !takes_best_) return;
   const double may = at_start.value_or(0) + kinetic(parts.v);
   double has = parts.body.value(x).value_or(0);
-  for (int k = 0; has > may && k <= max_halvings; ++k) {
+  // Going back does not help where round-off alone is in the way, as in a body at rest.
+  const double round_off = round_off_fraction * parts.body.value_round_off();
+  for (int k = 0; has > may + round_off && k <= max_halvings; ++k) {
     x = k < max_halvings ? Vector(start + (x - start) / 2) : start;
     v = (x - parts.x) / h;
     has = *parts.body.value(x);

@@ -52,7 +52,8 @@ class NodesAndSprings : public Objective {
     for (const int n : free_.node) matrix.add_node(n, bends(n));
   }
 
-  bool add_stiffness_single_precision(BsrMatrix& rows) override {
+  bool assemble_single_precision(BsrMatrix& rows) override {
+    rows.set_zero();
     each_edge([&](int a, int b) { rows.add_edge(a, b, k_ * Mat3::Identity()); });
     for (const int n : free_.node) rows.add_node(n, bends(n));
     return true;

@@ -39,7 +39,7 @@ TEST_CASE("products in float equal those of the assembled stiffness, for every l
     const auto number = some_rows(small.mesh.nodes.size());
     BsrMatrix rows(number, small.mesh.tets);
     body->linearise(small.x.data(), team);
-    CHECK(body->add_stiffness(rows, team));
+    CHECK(body->assemble(rows, team));
     const MultiVector x = random_triples(rows.rows(), random);
     MultiVector y(rows.rows());
     rows.multiply(x, y, team);
@@ -54,6 +54,37 @@ TEST_CASE("products in float equal those of the assembled stiffness, for every l
         const auto row = static_cast<std::size_t>(number[n]);
         CHECK(std::abs(static_cast<double>(y[row][i]) - expected) <= 2e-6 * test::largest(change));
       }
+  }
+}
+
+TEST_CASE("the matrix is symmetric to the last bit, and no translation strains what nothing holds") {
+  std::mt19937_64 random(75);
+  ThreadTeam team(1);
+  SmallBody small(random, 0.1);
+  const auto body = small.of("mooney_rivlin", false);
+  body->linearise(small.x.data(), team);
+  for (const bool all : {false, true}) {
+    std::vector<int> number(small.mesh.nodes.size());
+    std::iota(number.begin(), number.end(), 0);
+    BsrMatrix rows(all ? number : some_rows(number.size()), small.mesh.tets);
+    CHECK(body->assemble(rows, team));
+    Eigen::MatrixXf K(3 * rows.rows(), 3 * rows.rows());
+    for (int c = 0; c < K.cols(); ++c) {
+      MultiVector unit(rows.rows(), Eigen::Array4f::Zero()), y(rows.rows());
+      unit[static_cast<std::size_t>(c) / 3][c % 3] = 1;
+      rows.multiply(unit, y, team);
+      for (std::size_t row = 0; row < rows.rows(); ++row)
+        K.col(c).segment<3>(3 * static_cast<int>(row)) = y[row].head<3>();
+    }
+    CHECK(K == K.transpose());
+    for (std::size_t row = 0; row < rows.rows(); ++row)
+      CHECK(rows.diagonal_block(row) == K.block<3, 3>(3 * static_cast<int>(row), 3 * static_cast<int>(row)));
+    if (!all) continue;
+    for (int i = 0; i < 3; ++i) {
+      Eigen::VectorXf sum = Eigen::VectorXf::Zero(K.rows());
+      for (int c = i; c < K.cols(); c += 3) sum += K.col(c);
+      CHECK(sum.cwiseAbs().maxCoeff() < 1e-5f * K.cwiseAbs().maxCoeff());
+    }
   }
 }
 
@@ -84,7 +115,7 @@ TEST_CASE("a matrix of averaged nodal pressure is refused") {
   const auto body = small.of(Material{"neo_hookean_iso", {500, 5e4}}, true, true);
   BsrMatrix rows(some_rows(small.mesh.nodes.size()), small.mesh.tets);
   body->linearise(small.x.data(), team);
-  CHECK(!body->add_stiffness(rows, team));
+  CHECK(!body->assemble(rows, team));
 }
 
 TEST_CASE("the matrix and its products are bit-identical for any number of threads") {
@@ -102,8 +133,7 @@ TEST_CASE("the matrix and its products are bit-identical for any number of threa
       CAPTURE(threads);
       ThreadTeam team(threads);
       body.linearise(x.data(), team);
-      rows.set_zero();
-      body.add_stiffness(rows, team);
+      body.assemble(rows, team);
       rows.multiply(in, threads == 1 ? first : out, team);
       for (std::size_t row = 0; threads > 1 && row < rows.rows(); ++row) CHECK((out[row] == first[row]).all());
     }
@@ -139,8 +169,7 @@ TEST_CASE("a matrix that lost elements has the bits of one made of those left, f
     ThreadTeam team(threads);
     body.linearise(x.data(), team);
     for (BsrMatrix* rows : {&cut, &fresh}) {
-      rows->set_zero();
-      body.add_stiffness(*rows, team);
+      body.assemble(*rows, team);
       rows->multiply(in, rows == &cut ? of_cut : of_fresh, team);
     }
     for (std::size_t row = 0; row < cut.rows(); ++row) CHECK((of_cut[row] == of_fresh[row]).all());
