@@ -107,6 +107,7 @@ template <class Real>
 void BodyObjective<Real>::elements_changed() {
   steps_in_double_ = 0;
   double_body_.reset();
+  elastic_.clear();
   clear_cache();
 }
 
@@ -302,17 +303,24 @@ std::optional<double> BodyObjective<Real>::value(const Vector& x) {
   return values_.emplace_back(x, find_value(x)).second;
 }
 
+/// At x, whose values in Real are x_.
 template <class Real>
-double BodyObjective<Real>::elastic_potential(const Vector& x, const Real* at_x) {
+double BodyObjective<Real>::elastic_potential(const Vector& x) {
   if (is_refined()) return double_body_->potential(x.data(), team_);
-  const FlowTrial trial(body_, at_x, team_, flow_lags_);
-  return body_.potential(at_x, team_);
+  if (body_.has_internal_state()) {
+    const FlowTrial trial(body_, x_.data(), team_, flow_lags_);
+    return body_.potential(x_.data(), team_);
+  }
+  for (const ElasticEnergy& known : elastic_)
+    if (known.activation == body_.activation() && known.x == x_) return known.value;
+  if (elastic_.size() == values_remembered) elastic_.pop_front();
+  return elastic_.emplace_back(ElasticEnergy{x_, body_.activation(), body_.potential(x_.data(), team_)}).value;
 }
 
 template <class Real>
 double BodyObjective<Real>::find_value(const Vector& x) {
   const Real* at_x = as_real(x, x_);
-  double sum = elastic_potential(x, at_x);
+  double sum = elastic_potential(x);
   for (std::size_t n = 0; n < masses_->lumped.size(); ++n)
     sum -= static_cast<double>(masses_->heavy()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_->mesh.nodes[n]);
   for (const auto& load : model_->dead)

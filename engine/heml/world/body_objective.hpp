@@ -136,7 +136,7 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   void clear_cache();
   void find_forces(const Vector& x);
   double find_value(const Vector& x);
-  double elastic_potential(const Vector& x, const Real* at_x);
+  double elastic_potential(const Vector& x);
   void add_external(const Real* x, const Vector& x_double);
   template <class Matrix>
   void add_diagonal(Matrix& matrix) const;
@@ -156,6 +156,13 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;
   ContactPotential contact_;
+  /// Elastic energies of the last positions, which loads do not change: a step starts where the one before has ended.
+  /// Results of what body_ is, so no part of a snapshot.
+  struct ElasticEnergy {
+    std::vector<Real> x;
+    double activation, value;
+  };
+  std::deque<ElasticEnergy> elastic_;
   std::vector<Real> x_, dx_, f_, v_;  ///< scratch
   Vector change_;                     ///< scratch: of forces, N
 };
