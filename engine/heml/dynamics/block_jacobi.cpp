@@ -11,6 +11,23 @@ constexpr float share_of_ratio = 0.8f;     // ω over (λ + 2μ)/μ: fewest iter
 constexpr float stiff_from = 4;            // times the median ratio
 constexpr float min_pivot = 1e-4f;         // relative to the block: smaller ones count as not positive
 
+/// Columns of weight D⁻¹, by cofactors; returns false where D is not positive definite.
+bool invert(const Eigen::Matrix3f& D, float weight, std::array<Eigen::Array4f, 3>& inverse) {
+  const float size = D.trace() / 3, scale = 1 / size;  // of which no product overflows
+  const float a = scale * D(0, 0), b = scale * D(1, 1), c = scale * D(2, 2);
+  const float d = scale * D(1, 0), e = scale * D(2, 0), f = scale * D(2, 1);
+  const float A = b * c - f * f, B = a * c - e * e, C = a * b - d * d;
+  const float F = d * e - a * f, E = d * f - b * e, G = e * f - c * d;
+  const float determinant = a * A + d * G + e * E;
+  if (!(size > 0 && a > min_pivot && C > min_pivot && determinant > min_pivot)) return false;
+  const float factor = weight * scale / determinant;
+  if (!std::isfinite(factor)) return false;
+  inverse[0] = factor * Eigen::Array4f(A, G, E, 0);
+  inverse[1] = factor * Eigen::Array4f(G, B, F, 0);
+  inverse[2] = factor * Eigen::Array4f(E, F, C, 0);
+  return true;
+}
+
 }  // namespace
 
 void BlockJacobi::set(const BsrMatrix& K, const std::vector<float>& diagonal, ThreadTeam& team) {
@@ -30,21 +47,10 @@ void BlockJacobi::set(const BsrMatrix& K, const std::vector<float>& diagonal, Th
     if (const float times = ratio_of(row) / usual; times > stiff_from) stiff_rows_.push_back({row, stiff_from / times});
   inverse_.resize(K.rows());
   team.parallel_for(K.rows(), row_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const Eigen::Matrix3f D = K.diagonal_block(row);
-      const float minor = D(0, 0) * D(1, 1) - D(0, 1) * D(0, 1), size = D.trace() / 3;
-      const Eigen::Matrix3f inverse = D.inverse();
-      const bool is_positive = D(0, 0) > min_pivot * size && minor > min_pivot * size * size &&
-                               D.determinant() > min_pivot * size * size * size && inverse.allFinite();
-      for (int j = 0; j < 3; ++j) {
-        Eigen::Array4f& column = inverse_[row][static_cast<std::size_t>(j)];
-        column.setZero();
-        if (is_positive)
-          column.head<3>() = weight * inverse.col(j).array();
-        else
-          column[j] = 1 / diagonal[row];
-      }
-    }
+    for (std::size_t row = begin; row < end; ++row)
+      if (!invert(K.diagonal_block(row), weight, inverse_[row]))
+        for (int j = 0; j < 3; ++j)
+          inverse_[row][static_cast<std::size_t>(j)] = Eigen::Vector4f::Unit(j).array() / diagonal[row];
   });
 }
 
