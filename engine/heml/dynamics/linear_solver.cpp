@@ -24,7 +24,7 @@ Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) 
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
                            const Vector& mass, Preconditioner preconditioner, Projection projection, ThreadTeam& team,
-                           const std::vector<Tet>* pattern, InstructionSet instruction_set)
+                           const QuadraticPattern* pattern, InstructionSet instruction_set)
     : free_(free),
       mesh_(&mesh),
       pattern_(pattern),
@@ -44,7 +44,7 @@ void LinearSolver::limit_iterations(int iterations) {
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
 void LinearSolver::assemble(Objective& objective) {
-  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, pattern_ ? *pattern_ : mesh_->tets);
+  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, pattern_ ? pattern_->coupled : mesh_->tets);
   matrix_->set_zero();
   objective.add_stiffness(*matrix_);
   if (shift_ > 0)
@@ -249,8 +249,11 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
 
 /// Whether the solve can run in float; if so, assembles the stiffness in float.
 bool LinearSolver::supports_single_precision(Objective& objective, double tolerance) {
-  if (!scalar_ || pattern_ || tolerance < min_float_tolerance) return false;
-  if (!single_precision_cg_) single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, *mesh_, team_);
+  if (!scalar_ || tolerance < min_float_tolerance) return false;
+  if (!single_precision_cg_) {
+    BsrMatrix K = pattern_ ? BsrMatrix(free_.number, pattern_->elements) : BsrMatrix(free_.number, mesh_->tets);
+    single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, std::move(K), team_);
+  }
   return single_precision_cg_->assemble(objective, shift_);
 }
 

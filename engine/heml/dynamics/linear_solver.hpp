@@ -20,14 +20,20 @@ inline constexpr std::size_t max_direct_unknowns_once = 1000;
 /// Chooses by size with a fixed cost model, never by measured time, so that the choice is reproducible.
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve);
 
+/// What the stiffness of quadratic elements couples.
+struct QuadraticPattern {
+  std::vector<Tet> coupled;                   ///< quadruples of nodes (mesh/quadratic.hpp, coupled_nodes())
+  std::vector<std::array<int, 10>> elements;  ///< their nodes
+};
+
 class LinearSolver {
  public:
   /// free, mesh (rest shape), mass (3 #V, kg), pattern and team must outlive this. modulus: #T, Pa, for the scalar
-  /// matrix. pattern: nodes that the stiffness couples, where these are not the elements of the mesh; the stiffness has
-  /// then no matrix in float. instruction_set: of the factor's kernels; the processor must support it.
+  /// matrix. pattern: of the stiffness, where its elements are not those of the mesh. instruction_set: of the factor's
+  /// kernels; the processor must support it.
   LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
                Preconditioner preconditioner, Projection projection, ThreadTeam& team,
-               const std::vector<Tet>* pattern = nullptr, InstructionSet instruction_set = InstructionSet::best);
+               const QuadraticPattern* pattern = nullptr, InstructionSet instruction_set = InstructionSet::best);
 
   /// To be called when the body has lost elements and the masses are updated. mesh: as it is now, which
   /// may be elsewhere. elements: those left, by their old numbers (ascending). Nodes that lost all elements have mass 0
@@ -102,7 +108,7 @@ class LinearSolver {
 
   const FreeNodes& free_;
   const TetMesh* mesh_;
-  const std::vector<Tet>* pattern_;  ///< null: the elements of the mesh
+  const QuadraticPattern* pattern_;  ///< null: the elements of the mesh
   const Vector& mass_;
   Preconditioner preconditioner_;
   Projection projection_;

@@ -8,9 +8,6 @@ constexpr std::size_t piece = 256;         // rows per partial sum
 constexpr std::size_t update_grain = 512;  // min. rows per thread, which outweigh the cost of a fork
 }  // namespace
 
-SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team)
-    : SinglePrecisionCG(free, BsrMatrix(free.number, mesh.tets), team) {}
-
 SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, BsrMatrix matrix, ThreadTeam& team)
     : free_(free), team_(team), K_(std::move(matrix)) {
   for (MultiVector* list : {&d_, &left_, &p_, &q_, &z_}) list->resize(K_.rows());

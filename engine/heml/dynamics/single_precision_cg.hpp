@@ -10,9 +10,7 @@ inline constexpr double min_float_tolerance = 1e-4;
 
 class SinglePrecisionCG {
  public:
-  /// mesh: gives the sparsity pattern. free and team must outlive this.
-  SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team);
-  /// With a matrix made before, of the same free nodes.
+  /// matrix: of the free nodes. free and team must outlive this.
   SinglePrecisionCG(const FreeNodes& free, BsrMatrix matrix, ThreadTeam& team);
 
   /// To be called when the mesh has lost elements: those left, by their old numbers (ascending).

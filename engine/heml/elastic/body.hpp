@@ -118,8 +118,8 @@ class ElasticBody {
   /// Writes −K dx (N), the change of the forces with a change dx of the positions, into out (3 #V, overwritten).
   void force_differential(const Real* dx, Real* out, ThreadTeam& team);
 
-  /// Makes `rows` K between free nodes. Returns false and changes nothing with averaged nodal pressure, which couples
-  /// nodes that share no element, and for quadratic elements, whose pattern it does not have.
+  /// Makes `rows`, which is of the same elements, K between free nodes. Returns false and changes nothing with averaged
+  /// nodal pressure, which couples nodes that share no element, and with mean dilatation.
   bool assemble(BsrMatrix& rows, ThreadTeam& team) const;
 
   /// Calls visit(nodes (4 inner numbers), K (12×12)) for every element, or visit(nodes (10), K (30×30)) for quadratic

@@ -84,7 +84,8 @@ void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam
 
 template <class Real>
 bool ElasticBody<Real>::assemble(BsrMatrix& rows, ThreadTeam& team) const {
-  if (pressure_ || layout_->virtual_corners) return false;
+  const auto has_dilatation = [](const Part& part) { return part.dilatation != nullptr; };
+  if (pressure_ || std::any_of(parts_.begin(), parts_.end(), has_dilatation)) return false;
   rows.begin_elements(team);
   for (const Part& part : parts_)
     if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), *part.group, team);

@@ -7,6 +7,7 @@
 #include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/four.hpp>
 #include <heml/mesh/edit.hpp>
+#include <heml/mesh/quadratic.hpp>
 
 namespace heml {
 namespace {
@@ -15,8 +16,6 @@ constexpr std::size_t row_grain = 512;  // min. rows per thread, which outweigh 
 constexpr int side_by_side = 4;         // elements added together
 
 using Row = Four<float>;
-
-constexpr std::array<std::array<std::size_t, 2>, 6> corner_pairs{{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 template <class Real>
 [[gnu::always_inline]] inline Row read_row(const Real* from) {
@@ -54,18 +53,63 @@ template <class Real>
   }
 }
 
+/// The virtual corners that a node of a quadratic element has a weight in, and its weight at each point.
+struct NodeWeights {
+  struct OfCorner {
+    std::size_t corner = 0;
+    float at_point[element_points] = {};
+  };
+  std::size_t corners = 0;
+  OfCorner weight[2];
+};
+constexpr std::array<NodeWeights, 10> node_weights = [] {
+  std::array<NodeWeights, 10> result{};
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    for (std::size_t k = 0; k < 4; ++k) {
+      NodeWeights& node = result[virtual_corner(0, corner)[k].node];  // the same nodes at every point
+      NodeWeights::OfCorner& of_corner = node.weight[node.corners++];
+      of_corner.corner = corner;
+      for (std::size_t q = 0; q < element_points; ++q)
+        of_corner.at_point[q] = static_cast<float>(virtual_corner(q, corner)[k].weight);
+    }
+  return result;
+}();
+
+/// K_cd of the virtual corners at four points, [c][d][column][row]. k: their edge stiffness.
+template <class Real>
+[[gnu::always_inline]] inline void expand_corners(const Real* k, Row (&out)[4][4][3][3]) {
+  constexpr std::size_t packet = ElementGroup<Real>::lanes;
+  for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t d = 1; d < 4; ++d) {
+        out[0][d][j][i] = Row{};  // minus the sum of the others, since corner 0 moves all edges back
+        for (std::size_t c = 1; c < 4; ++c) {
+          const int entry = edge_entry(static_cast<int>(3 * (c - 1) + i), static_cast<int>(3 * (d - 1) + j));
+          out[c][d][j][i] = read_row(k + packet * static_cast<std::size_t>(entry));
+          out[0][d][j][i] -= out[c][d][j][i];
+        }
+      }
+  for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t c = 1; c < 4; ++c) out[c][0][j][i] = out[0][c][i][j];
+      out[0][0][j][i] = -(out[0][1][j][i] + out[0][2][j][i] + out[0][3][j][i]);
+    }
+}
+
 }  // namespace
 
-BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tets) : number_(number) {
+template <std::size_t nodes>
+BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<std::array<int, nodes>>& elements)
+    : number_(number), pairs_(nodes * (nodes - 1) / 2) {
   const auto row_of = [&](int node) { return number[static_cast<std::size_t>(node)]; };
   const auto count =
       static_cast<std::size_t>(std::count_if(number.begin(), number.end(), [](int n) { return n >= 0; }));
   std::vector<std::vector<int>> neighbours(count);
   for (const int n : number)
     if (n >= 0) neighbours[static_cast<std::size_t>(n)].push_back(n);
-  for (const Tet& tet : tets)
-    for (const int a : tet)
-      for (const int b : tet)
+  for (const auto& element : elements)
+    for (const int a : element)
+      for (const int b : element)
         if (a != b && row_of(a) >= 0 && row_of(b) >= 0)
           neighbours[static_cast<std::size_t>(row_of(a))].push_back(row_of(b));
   start_.assign(1, 0);
@@ -82,23 +126,23 @@ BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tet
     for (auto k = static_cast<std::size_t>(start_[row]); k < static_cast<std::size_t>(start_[row + 1]); ++k)
       mirror_.push_back(find(column_[k], static_cast<int>(row)));
   }
-  for (const Tet& tet : tets) {
-    BlockIndices& places = block_indices_.emplace_back();
-    for (std::size_t p = 0; p < places.size(); ++p)
-      places[p] = place_of_pair(row_of(tet[corner_pairs[p][0]]), row_of(tet[corner_pairs[p][1]]));
-  }
-  find_sections(tets);
+  for (const auto& element : elements)
+    for (std::size_t b = 1; b < nodes; ++b)
+      for (std::size_t a = 0; a < b; ++a)
+        block_indices_.push_back(place_of_pair(row_of(element[a]), row_of(element[b])));
+  find_sections(elements);
   set_zero();
 }
 
-void BsrMatrix::find_sections(const std::vector<Tet>& tets) {
+template <std::size_t nodes>
+void BsrMatrix::find_sections(const std::vector<std::array<int, nodes>>& elements) {
   std::vector<SectionMask> section_of(rows());
   for (std::size_t section = 0; section < sections; ++section)
     for (std::size_t row = first_row(section); row < first_row(section + 1); ++row)
       section_of[row] = SectionMask{1} << section;
-  for (const Tet& tet : tets) {
+  for (const auto& element : elements) {
     SectionMask& mask = sections_.emplace_back(0);
-    for (const int node : tet) {
+    for (const int node : element) {
       const int row = number_[static_cast<std::size_t>(node)];
       mask |= row < 0 ? no_row : section_of[static_cast<std::size_t>(row)];
     }
@@ -119,7 +163,7 @@ int BsrMatrix::place_of_pair(int row_a, int row_b) const {
 }
 
 void BsrMatrix::keep_elements(const std::vector<int>& elements) {
-  block_indices_ = with_elements(block_indices_, elements);
+  block_indices_ = with_elements(block_indices_, elements, pairs_);
   sections_ = with_elements(sections_, elements);
 }
 
@@ -179,28 +223,27 @@ void BsrMatrix::begin_elements(ThreadTeam& team) {
   });
 }
 
-/// Adds the stiffness of a group to the sums of sections [begin, end).
 template <class Real>
-[[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t begin, std::size_t end, const Real* K,
-                                                     const ElementGroup<Real>& group) {
+[[gnu::always_inline]] inline void BsrMatrix::add_linear(std::size_t begin, std::size_t end, const Real* K,
+                                                         const ElementGroup<Real>& group) {
   constexpr std::size_t packet = ElementGroup<Real>::lanes;
-  static constexpr BlockIndices nowhere{-1, -1, -1, -1, -1, -1};
+  static constexpr int nowhere[6] = {-1, -1, -1, -1, -1, -1};
   const SectionMask mine = (SectionMask{1} << end) - (SectionMask{1} << begin);
   const auto first = static_cast<std::size_t>(start_[first_row(begin)]);
   const auto last = static_cast<std::size_t>(start_[first_row(end)]);
   for (std::size_t s = 0; s < group.size(); s += side_by_side) {
-    const BlockIndices* places[side_by_side];
+    const int* places[side_by_side];
     SectionMask touched = 0;
     for (std::size_t l = 0; l < side_by_side; ++l) {
       const bool exists = s + l < group.size();
       const auto element = exists ? static_cast<std::size_t>(group.element[s + l]) : 0;
-      places[l] = exists ? &block_indices_[element] : &nowhere;
+      places[l] = exists ? &block_indices_[6 * element] : nowhere;
       touched |= exists ? sections_[element] : no_row;
     }
     if (!(touched & mine)) continue;
     const Real* const k = K + edge_entries * packet * (s / packet) + s % packet;
     const auto block_of = [&](std::size_t l, std::size_t pair) {
-      return static_cast<std::size_t>(static_cast<unsigned>((*places[l])[pair]));  // −1 becomes the largest
+      return static_cast<std::size_t>(static_cast<unsigned>(places[l][pair]));  // −1 becomes the largest
     };
     if (!(touched & ~mine))
       each_column(k, [&](std::size_t pair, int j, const Row(&column)[side_by_side]) {
@@ -214,6 +257,55 @@ template <class Real>
         }
       });
   }
+}
+
+/// An element at a time, its four points side by side: K_ab = Σ_cd w_ac w_bd K_cd over the virtual corners c, d that
+/// nodes a, b have a weight in, summed over the points.
+template <class Real>
+[[gnu::always_inline]] inline void BsrMatrix::add_quadratic(std::size_t begin, std::size_t end, const Real* K,
+                                                            const ElementGroup<Real>& group) {
+  constexpr std::size_t packet = ElementGroup<Real>::lanes;
+  const SectionMask mine = (SectionMask{1} << end) - (SectionMask{1} << begin);
+  const auto first = static_cast<std::size_t>(start_[first_row(begin)]);
+  const auto last = static_cast<std::size_t>(start_[first_row(end)]);
+  for (std::size_t s = 0; s < group.size(); s += element_points) {
+    const auto element = static_cast<std::size_t>(group.element[s]) / element_points;
+    if (!(sections_[element] & mine)) continue;
+    Row of_corners[4][4][3][3];  // columns
+    expand_corners(K + edge_entries * packet * (s / packet) + s % packet, of_corners);
+    const int* place = &block_indices_[pairs_ * element];
+    for (std::size_t b = 1; b < 10; ++b)
+      for (std::size_t a = 0; a < b; ++a, ++place) {
+        const std::size_t block = static_cast<unsigned>(*place);  // −1 becomes the largest
+        if (!(block - first < last - first)) continue;
+        Row sum[3][4] = {};
+        for (std::size_t i = 0; i < node_weights[a].corners; ++i)
+          for (std::size_t k = 0; k < node_weights[b].corners; ++k) {
+            const auto& [c, of_a] = node_weights[a].weight[i];
+            const auto& [d, of_b] = node_weights[b].weight[k];
+            const Row weight = read_four(of_a) * read_four(of_b);
+#pragma GCC unroll 3
+            for (std::size_t j = 0; j < 3; ++j)
+#pragma GCC unroll 3
+              for (std::size_t m = 0; m < 3; ++m) sum[j][m] += weight * of_corners[c][d][j][m];
+          }
+#pragma GCC unroll 3
+        for (std::size_t j = 0; j < 3; ++j) {
+          transpose(sum[j]);
+          sum_[block].column[j] += (sum[j][0] + sum[j][1]) + (sum[j][2] + sum[j][3]);
+        }
+      }
+  }
+}
+
+/// Adds the stiffness of a group to the sums of sections [begin, end).
+template <class Real>
+[[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t begin, std::size_t end, const Real* K,
+                                                     const ElementGroup<Real>& group) {
+  if (pairs_ == 6)
+    add_linear(begin, end, K, group);
+  else
+    add_quadratic(begin, end, K, group);
 }
 
 template <class Real>
@@ -303,6 +395,8 @@ void BsrMatrix::multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team)
   });
 }
 
+template BsrMatrix::BsrMatrix(const std::vector<int>&, const std::vector<std::array<int, 4>>&);
+template BsrMatrix::BsrMatrix(const std::vector<int>&, const std::vector<std::array<int, 10>>&);
 template void BsrMatrix::add_elements(const float*, const ElementGroup<float>&, ThreadTeam&);
 template void BsrMatrix::add_elements(const double*, const ElementGroup<double>&, ThreadTeam&);
 

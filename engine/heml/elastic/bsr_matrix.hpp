@@ -33,15 +33,18 @@ using MultiVector = std::vector<Eigen::Array4f>;  ///< xyz and 0: one vector reg
 
 class BsrMatrix {
  public:
-  /// number: #V, row of each node, −1 for nodes without a row. tets: #T, give the sparsity pattern.
-  BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tets);
+  /// number: #V, row of each node, −1 for nodes without a row. elements: #T, give the sparsity pattern: nodes of linear
+  /// tetrahedra (4) or quadratic ones (10).
+  template <std::size_t nodes>
+  BsrMatrix(const std::vector<int>& number, const std::vector<std::array<int, nodes>>& elements);
 
   /// Removes all but the given elements (ascending) and renumbers those in that order. Rows and blocks stay.
   void keep_elements(const std::vector<int>& elements);
 
   void set_zero();
-  /// K = Σ of element stiffnesses, N/m (edge_stiffness.hpp), of groups whose element numbers are indices into tets,
-  /// over what was there: a call to begin, one for each group, and one to end.
+  /// K = Σ of element stiffnesses, N/m (edge_stiffness.hpp), of groups whose element numbers are indices into the
+  /// elements, or, of quadratic ones, four times these and the point; over what was there: a call to begin, one for
+  /// each group, and one to end.
   void begin_elements(ThreadTeam& team);
   template <class Real>
   void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team);
@@ -75,16 +78,14 @@ class BsrMatrix {
   struct Sum {
     Column column[3];  ///< xyz and 0
   };
-  /// Where K_ab of each pair of an element's corners, in the order of corner_pairs, is added; −1: nowhere.
-  using BlockIndices = std::array<int, 6>;
-
   /// Bit k: a corner has its row in section k; bit `sections`: a corner has no row.
   using SectionMask = std::uint32_t;
   static constexpr std::size_t sections = 16;
   static constexpr SectionMask no_row = SectionMask{1} << sections;
 
   std::size_t first_row(std::size_t section) const { return rows() * section / sections; }
-  void find_sections(const std::vector<Tet>& tets);
+  template <std::size_t nodes>
+  void find_sections(const std::vector<std::array<int, nodes>>& elements);
   int find(int row, int column) const;
   int place_of_pair(int row_a, int row_b) const;
   float* entries(int block) { return &entry_[9 * static_cast<std::size_t>(block)]; }
@@ -92,6 +93,10 @@ class BsrMatrix {
   void add(int row, int column, const Mat3& B);
   template <class Real>
   void add_to(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
+  template <class Real>
+  void add_linear(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
+  template <class Real>
+  void add_quadratic(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
   template <class Real>
   void add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
   void end_rows(std::size_t begin, std::size_t end);
@@ -104,8 +109,10 @@ class BsrMatrix {
   std::vector<int> diagonal_;  ///< block of each row
   std::vector<int> mirror_;    ///< of each block: that of its row and column exchanged
   std::vector<Sum> sum_;
-  std::vector<float> entry_;                 ///< nine a block, and padding, since columns are read as four numbers
-  std::vector<BlockIndices> block_indices_;  ///< #T
+  std::vector<float> entry_;  ///< nine a block, and padding, since columns are read as four numbers
+  std::size_t pairs_;         ///< of an element's nodes: 6 or 45
+  /// Where K_ab of each pair of an element's nodes is added, b from 1 up, a < b; −1: nowhere. pairs_ #T.
+  std::vector<int> block_indices_;
   std::vector<SectionMask> sections_;        ///< #T
 };
 

@@ -50,20 +50,26 @@ Preconditioner preconditioner_of(const SolverSettings& solver, std::size_t free_
   return once && by_size == Preconditioner::cholesky ? Preconditioner::scalar : by_size;
 }
 
+QuadraticPattern quadratic_pattern(const TetMesh& mesh, const MidEdges& midedges) {
+  QuadraticPattern pattern{coupled_nodes(mesh, midedges), {}};
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    pattern.elements.push_back(quadratic_nodes(mesh.tets[t], midedges[t]));
+  return pattern;
+}
+
 }  // namespace
 
 template <class Real>
 ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Shared<Model<Real>>& model,
-                                   const Shared<NodeMasses<Real>>& masses,
-                                   const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
-                                   Contacts& contacts, ThreadTeam& team, const SolverSettings& solver,
-                                   InstructionSet instruction_set)
+                                   const Shared<NodeMasses<Real>>& masses, const std::vector<double>& modulus,
+                                   const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team,
+                                   const SolverSettings& solver, InstructionSet instruction_set)
     : free(nonzero(masses->inverse), held_coordinates(*model, masses->inverse)),
       mass(thrice(free, masses->lumped)),
       body(elastic, model, masses, free, grasps, contacts, team),
       linear_mesh(model->midedges.empty() ? std::nullopt
                                           : std::optional<TetMesh>(subdivided(model->mesh, model->midedges))),
-      pattern(linear_mesh ? coupled_nodes(model->mesh, model->midedges) : std::vector<Tet>()),
+      pattern(linear_mesh ? quadratic_pattern(model->mesh, model->midedges) : QuadraticPattern()),
       linear(free, linear_mesh ? *linear_mesh : model->mesh, linear_mesh ? repeated(modulus, 8) : modulus, mass,
              preconditioner_of(solver, free.node.size()), solver.projection, team, linear_mesh ? &pattern : nullptr,
              instruction_set),

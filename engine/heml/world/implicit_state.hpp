@@ -27,7 +27,7 @@ struct ImplicitState {
   BodyObjective<Real> body;
   std::optional<TetMesh>
       linear_mesh;           ///< of quadratic elements: linear ones on the same nodes, which precondition them
-  std::vector<Tet> pattern;  ///< of quadratic elements: nodes that the stiffness couples
+  QuadraticPattern pattern;  ///< of quadratic elements
   LinearSolver linear;
   IncrementalPotential step;
   Vector x, v;                ///< 3 #V, the state in double

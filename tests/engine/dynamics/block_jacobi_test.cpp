@@ -8,7 +8,7 @@ namespace {
 
 /// Two nodes with rows, of one tetrahedron, with these diagonal blocks.
 BsrMatrix matrix_of(const Mat3& first, const Mat3& second) {
-  BsrMatrix K({0, -1, 1, -1}, {Tet{0, 1, 2, 3}});
+  BsrMatrix K({0, -1, 1, -1}, std::vector<Tet>{{0, 1, 2, 3}});
   K.set_zero();
   K.add_node(0, first);
   K.add_node(2, second);
@@ -55,7 +55,7 @@ TEST_CASE("no weight is below that of a node as stiff as the stand-in") {
 TEST_CASE("a matrix without rows has nothing to invert") {
   ThreadTeam team(1);
   BlockJacobi finest;
-  finest.set(BsrMatrix({-1, -1, -1, -1}, {Tet{0, 1, 2, 3}}), {}, team);
+  finest.set(BsrMatrix({-1, -1, -1, -1}, std::vector<Tet>{{0, 1, 2, 3}}), {}, team);
   CHECK(finest.bytes() == 0);
 }
 

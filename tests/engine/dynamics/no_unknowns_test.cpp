@@ -76,7 +76,7 @@ TEST_CASE("no unknowns: every preconditioner can be built and applied") {
     multilevel.apply(none, none);
   }
   NodesAndSprings springs(body.mesh, body.free, 2);
-  SinglePrecisionCG in_float(body.free, body.mesh, body.team);
+  SinglePrecisionCG in_float(body.free, BsrMatrix(body.free.number, body.mesh.tets), body.team);
   REQUIRE(in_float.assemble(springs, 0.5));
   SmoothedAggregation multilevel(body.free, body.mesh, body.moduli, body.mass, 0, body.team);
   REQUIRE(multilevel.set_inertia(0));

@@ -27,33 +27,63 @@ MultiVector random_triples(std::size_t count, std::mt19937_64& random) {
   return result;
 }
 
+/// That K of a body at x, between nodes with a row, does what force_differential() does.
+void check_products(ElasticBody<double>& body, const std::vector<double>& x, const std::vector<int>& number,
+                    BsrMatrix& rows, std::mt19937_64& random) {
+  ThreadTeam team(1);
+  body.linearise(x.data(), team);
+  CHECK(body.assemble(rows, team));
+  const MultiVector dx_rows = random_triples(rows.rows(), random);
+  MultiVector y(rows.rows());
+  rows.multiply(dx_rows, y, team);
+  std::vector<double> dx(x.size(), 0.0), change(x.size());
+  for (std::size_t n = 0; n < number.size(); ++n)
+    for (int i = 0; number[n] >= 0 && i < 3; ++i)
+      dx[3 * n + static_cast<std::size_t>(i)] = static_cast<double>(dx_rows[static_cast<std::size_t>(number[n])][i]);
+  body.force_differential(dx.data(), change.data(), team);
+  for (std::size_t n = 0; n < number.size(); ++n)
+    for (int i = 0; number[n] >= 0 && i < 4; ++i) {
+      const double expected = i < 3 ? -change[3 * n + static_cast<std::size_t>(i)] : 0;
+      const auto row = static_cast<std::size_t>(number[n]);
+      CHECK(std::abs(static_cast<double>(y[row][i]) - expected) <= 2e-6 * test::largest(change));
+    }
+}
+
 }  // namespace
 
 TEST_CASE("products in float equal those of the assembled stiffness, for every law and for springs") {
   std::mt19937_64 random(71);
-  ThreadTeam team(1);
   for (const auto law : law_names(true)) {
     CAPTURE(std::string(law));
     SmallBody small(random, 0.1);
     const auto body = small.of(law, true);
     const auto number = some_rows(small.mesh.nodes.size());
     BsrMatrix rows(number, small.mesh.tets);
-    body->linearise(small.x.data(), team);
-    CHECK(body->assemble(rows, team));
-    const MultiVector x = random_triples(rows.rows(), random);
-    MultiVector y(rows.rows());
-    rows.multiply(x, y, team);
-    std::vector<double> dx(small.x.size(), 0.0), change(small.x.size());
-    for (std::size_t n = 0; n < number.size(); ++n)
-      for (int i = 0; number[n] >= 0 && i < 3; ++i)
-        dx[3 * n + static_cast<std::size_t>(i)] = static_cast<double>(x[static_cast<std::size_t>(number[n])][i]);
-    body->force_differential(dx.data(), change.data(), team);
-    for (std::size_t n = 0; n < number.size(); ++n)
-      for (int i = 0; number[n] >= 0 && i < 4; ++i) {
-        const double expected = i < 3 ? -change[3 * n + static_cast<std::size_t>(i)] : 0;
-        const auto row = static_cast<std::size_t>(number[n]);
-        CHECK(std::abs(static_cast<double>(y[row][i]) - expected) <= 2e-6 * test::largest(change));
-      }
+    check_products(*body, small.x, number, rows, random);
+  }
+}
+
+TEST_CASE("products in float equal those of quadratic elements of two materials") {
+  std::mt19937_64 random(76);
+  SmallBody small(random, 0);
+  const MidEdges midedges = add_midedge_nodes(small.mesh);
+  std::vector<std::array<int, 10>> elements;
+  std::vector<int> material_of;
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) {
+    elements.push_back(quadratic_nodes(small.mesh.tets[t], midedges[t]));
+    material_of.push_back(t % 3 == 1);
+  }
+  std::vector<double> x;
+  for (const Vec3& X : small.mesh.nodes)
+    for (int i = 0; i < 3; ++i) x.push_back(X[i] + test::uniform(random, -1e-3, 1e-3));
+  ElasticBody<double> body(small.mesh, material_of,
+                           {Material{"neo_hookean", {3.1e4, 3.4e3}}, Material{"mooney_rivlin", {1e3, 2e2, 4e4}}}, {},
+                           midedges);
+  std::vector<int> all(small.mesh.nodes.size());
+  std::iota(all.begin(), all.end(), 0);
+  for (const std::vector<int>& number : {some_rows(all.size()), all}) {
+    BsrMatrix rows(number, elements);
+    check_products(body, x, number, rows, random);
   }
 }
 
@@ -108,7 +138,7 @@ TEST_CASE("a block of two nodes is added with its transpose, and not where a nod
   CHECK((y[2] == Eigen::Array4f(741, 852, 963, 0)).all());  // Bᵀ x₀
 }
 
-TEST_CASE("a matrix of averaged nodal pressure is refused") {
+TEST_CASE("a matrix of averaged nodal pressure or mean dilatation is refused") {
   std::mt19937_64 random(72);
   ThreadTeam team(1);
   SmallBody small(random, 0.1);
@@ -116,6 +146,19 @@ TEST_CASE("a matrix of averaged nodal pressure is refused") {
   BsrMatrix rows(some_rows(small.mesh.nodes.size()), small.mesh.tets);
   body->linearise(small.x.data(), team);
   CHECK(!body->assemble(rows, team));
+
+  const MidEdges midedges = add_midedge_nodes(small.mesh);
+  std::vector<std::array<int, 10>> elements;
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t)
+    elements.push_back(quadratic_nodes(small.mesh.tets[t], midedges[t]));
+  BodyOptions options;
+  options.nodal_pressure = true;
+  ElasticBody<double> quadratic(small.mesh, std::vector<int>(small.mesh.tets.size(), 0),
+                                {Material{"neo_hookean_iso", {500, 5e4}}}, options, midedges);
+  const std::vector<double> rest = small.rest();
+  quadratic.linearise(rest.data(), team);
+  BsrMatrix of_ten(some_rows(small.mesh.nodes.size()), elements);
+  CHECK(!quadratic.assemble(of_ten, team));
 }
 
 TEST_CASE("the matrix and its products are bit-identical for any number of threads") {
