@@ -68,7 +68,7 @@ TEST_CASE("after a removal implicit steps with the outdated factor follow a body
       const long new_iterations = iterations_of(*cut, 5), beside = iterations_of(*built, 5);
       MESSAGE("iterations with the old one " << old_iterations << ", " << built_iterations << " without the elements; "
                                              << new_iterations << " with a new one, " << beside);
-      CHECK(new_iterations <= beside + 5);
+      CHECK(new_iterations <= 1.1 * beside);  // round-off decides how many the last solves of a step take
       CHECK(rms_difference(cut->positions(), built->positions()) <= 1e-11);
     }
 }
