@@ -113,7 +113,7 @@ class BsrMatrix {
   std::size_t pairs_;         ///< of an element's nodes: 6 or 45
   /// Where K_ab of each pair of an element's nodes is added, b from 1 up, a < b; −1: nowhere. pairs_ #T.
   std::vector<int> block_indices_;
-  std::vector<SectionMask> sections_;        ///< #T
+  std::vector<SectionMask> sections_;  ///< #T
 };
 
 }  // namespace heml
