@@ -109,7 +109,7 @@ void print_method(const Explanation& explained) {
     print_line("lowest frequency", "{:.3g} Hz at rest", *world.method.lowest_frequency / (2 * std::numbers::pi));
   if (limit.element < 0) return;
   constexpr const char* causes[] = {"no element stands out", "a sliver", "small", "high stiffness per mass"};
-  print_line("limited by", "element {}: {}; ω² is {:.3g} times the median", limit.element,
+  print_line("limited by", "element {} and those round it: {}; ω² is {:.3g} times the median", limit.element,
              causes[static_cast<std::size_t>(limit.cause)], step.median_ratio);
   print_line("", "smallest angle {:.3g}°, height {:.3g} mm (median {:.3g}), waves {:.3g} m/s (median {:.3g})",
              limit.dihedral, 1e3 * limit.height, 1e3 * limit.median_height, limit.wave_speed, limit.median_wave_speed);

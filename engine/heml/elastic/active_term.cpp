@@ -90,11 +90,10 @@ Real ActiveTerm<Real>::slot_bound(const Group& group, std::size_t s) const {
 }
 
 template <class Real>
-Real ActiveTerm<Real>::frequency_bound(const Group& group, const Real*, std::size_t begin, std::size_t end) const {
-  Real largest = 0;
-  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s)
-    largest = std::max(largest, slot_bound(group, s));
-  return largest;
+void ActiveTerm<Real>::frequency_bounds(const Group& group, const Real*, std::size_t begin, std::size_t end,
+                                        Real* bounds, bool add) const {
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s, ++bounds)
+    *bounds = (add ? *bounds : 0) + slot_bound(group, s);
 }
 
 template class ActiveTerm<float>;

@@ -39,7 +39,8 @@ class ActiveTerm final : public GroupTerm<Real> {
               bool add) const override;
   void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
                  bool add) const override;
-  Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override;
+  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
+                        bool add) const override;
 
  private:
   Real slot_bound(const Group& group, std::size_t s) const;

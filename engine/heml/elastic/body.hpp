@@ -18,7 +18,7 @@
 #include <heml/elastic/group_term.hpp>
 #include <heml/elastic/mean_dilatation.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
-#include <heml/elastic/packet_bounds.hpp>
+#include <heml/elastic/node_bounds.hpp>
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/point_kernels.hpp>
 #include <heml/elastic/projection.hpp>
@@ -155,16 +155,20 @@ class ElasticBody {
   Real frequency_bound(const Real* x, ThreadTeam& team);
   /// Upper bound of the largest eigenvalue of M⁻¹D (1/s), D the viscous damping matrix at x.
   Real damping_bound(const Real* x, ThreadTeam& team);
-  /// The same `steps` after their last evaluation with the same `packets`, of those alone that may have become the
-  /// largest since.
-  Real frequency_bound(const Real* x, ThreadTeam& team, PacketBounds<Real>& packets, int steps);
-  Real damping_bound(const Real* x, ThreadTeam& team, PacketBounds<Real>& packets, int steps);
-  /// Packets with a corner within `radius` of `place` at rest, m; ascending.
-  std::vector<int> packets_near(const Vec3& place, double radius) const;
-
-  /// Bounds of ω² (1/s²) from the terms of each element alone, #T in inner order, without nodal pressure and springs;
-  /// of a quadratic element from its worst point.
-  std::vector<Real> element_bounds(const Real* x) const;
+  /// The same `steps` after their last evaluation with the same `nodes`, at those alone that may have the largest
+  /// since.
+  Real frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps);
+  Real damping_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps);
+  /// Which element adds most to the bound at a node in the last evaluation of all nodes, inner number, and how large
+  /// its part of it is, to 1; −1 if no element adds anything.
+  struct Contribution {
+    int element = -1;
+    double share = 0;
+  };
+  Contribution largest_contribution(std::size_t node) const;
+  /// Nodes of the elements (of quadratic ones, the points) with a corner within `radius` of `place` at rest, m;
+  /// ascending.
+  std::vector<int> nodes_near(const Vec3& place, double radius) const;
 
   /// Size of all arrays, in bytes.
   std::size_t bytes() const;
@@ -357,7 +361,12 @@ class ElasticBody {
   Real meshed_volume(const ElementGroup<Real>& group, std::size_t s) const;
   std::vector<double> point_masses() const;
   template <class Bound>
-  Real max_bound(ThreadTeam& team, PacketBounds<Real>& packets, int steps, const Bound& bound) const;
+  Real max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, const Bound& bound);
+  void find_packets(const std::vector<int>& nodes);
+  template <class Visit>
+  void each_element_at(std::size_t node, const Visit& visit) const;
+  void weigh_bounds(const ElementGroup<Real>& group, std::size_t packet, const Real* bounds);
+  Real mean_bound(std::size_t node) const;
 
   /// Calls visit(part, slot, kinematics, rest shape) for every element.
   template <class Visit>
@@ -385,6 +394,8 @@ class ElasticBody {
   std::vector<Real> linearisation_point_;  ///< 3 a node of the layout's mesh
   bool projected_ = false;                 ///< whether project() was applied
   std::vector<double> packet_energy_;      ///< scratch of energy()
+  std::vector<int> due_packets_;           ///< find_packets()
+  std::vector<std::pair<Real, Real>> weighted_bound_;  ///< weigh_bounds()
   std::vector<Real> node_volume_;          ///< m³, scratch of forces()
   double plastic_work_ = 0;
   Real step_ = 0;  ///< s, of the last begin_step()

@@ -2,125 +2,214 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/body.hpp>
-#include <mutex>
 
 namespace heml {
 
-/// Maximum over the packets of the sum of the bounds of their terms.
+/// The maximum over the nodes of the mean of the elements' bounds, weighted by mass (node_bounds.hpp). bound(part,
+/// begin, end, bounds) writes those of the slots of packets, 8 a packet.
 template <class Real>
 template <class Bound>
-Real ElasticBody<Real>::max_bound(ThreadTeam& team, PacketBounds<Real>& packets, int steps, const Bound& bound) const {
-  std::size_t count = 0, first = 0;
-  for (const Part& part : parts_) count += part.group->packets();
-  packets.begin(count, steps);
-  auto due = packets.due().begin();
-  for (const Part& part : parts_) {
-    const std::size_t end = first + part.group->packets();
-    const auto due_end = std::lower_bound(due, packets.due().end(), static_cast<int>(end));
-    team.parallel_for(static_cast<std::size_t>(due_end - due), grain_ / 8 / part.group->lanes,
+Real ElasticBody<Real>::max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, const Bound& bound) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  nodes.begin(this->nodes(), steps);
+  find_packets(nodes.due());
+  weighted_bound_.resize(layout_->virtual_corners ? elements() : layout_->joints.corner_count / 4);
+  std::size_t first = 0;
+  auto due = due_packets_.begin();
+  for (std::size_t g = 0; g < parts_.size(); ++g) {
+    const ElementGroup<Real>& group = *parts_[g].group;
+    const std::size_t end = first + group.packets();
+    const auto due_end = std::lower_bound(due, due_packets_.end(), static_cast<int>(end));
+    team.parallel_for(static_cast<std::size_t>(due_end - due), grain_ / 8 / lanes,
                       [&](std::size_t begin, std::size_t last) {
+                        Real bounds[lanes];
                         for (auto k = due + static_cast<long>(begin); k < due + static_cast<long>(last); ++k) {
-                          const auto packet = static_cast<std::size_t>(*k) - first;
-                          Real sum = 0;
-                          for (const auto& term : part.terms) sum += bound(*term, *part.group, packet, packet + 1);
-                          packets.set(static_cast<std::size_t>(*k), sum);
+                          const auto p = static_cast<std::size_t>(*k) - first;
+                          bound(g, p, p + 1, bounds);
+                          weigh_bounds(group, p, bounds);
                         }
                       });
     due = due_end;
     first = end;
   }
-  return packets.end();
+  team.parallel_for(nodes.due().size(), grain_ / 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto n = static_cast<std::size_t>(nodes.due()[k]);
+      nodes.set(n, mean_bound(n));
+    }
+  });
+  return nodes.end();
+}
+
+/// Lists in due_packets_, ascending, the packets with an element at one of the nodes. Packets are numbered through all
+/// parts.
+template <class Real>
+void ElasticBody<Real>::find_packets(const std::vector<int>& nodes) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  std::size_t count = 0;
+  for (const Part& part : parts_) count += part.group->packets();
+  std::vector<bool> is_due(count, nodes.size() == this->nodes());
+  if (nodes.size() < this->nodes()) {
+    std::vector<bool> at_node(layout_->virtual_corners ? elements() : 0, false);
+    for (const int n : nodes)
+      each_element_at(static_cast<std::size_t>(n), [&](std::size_t e) {
+        if (layout_->virtual_corners)
+          at_node[e] = true;
+        else
+          is_due[e / lanes] = true;
+      });
+    std::size_t first = 0;
+    for (const Part& part : parts_) {
+      for (std::size_t s = 0; layout_->virtual_corners && s < part.group->size(); s += element_points)
+        if (at_node[element_at(*part.group, s)]) is_due[first + s / lanes] = true;
+      first += part.group->packets();
+    }
+  }
+  due_packets_.clear();
+  for (std::size_t p = 0; p < count; ++p)
+    if (is_due[p]) due_packets_.push_back(static_cast<int>(p));
+}
+
+/// Calls visit(e) for the elements at a node in ascending order: e is the slot, counted through all parts, or the
+/// number of a quadratic element.
+template <class Real>
+template <class Visit>
+void ElasticBody<Real>::each_element_at(std::size_t node, const Visit& visit) const {
+  if (layout_->virtual_corners) {
+    for (const std::size_t place : layout_->virtual_corners->places_at(node)) visit(place / 10);
+  } else {
+    const CornerMap& map = layout_->joints.corners;
+    for (std::size_t k = map.start[node]; k < map.start[node + 1]; ++k) visit(map.corners[k] / 4);
+  }
+}
+
+/// Writes the bounds of a packet's slots times their masses, and the masses, into weighted_bound_; of a quadratic
+/// element that of its worst point times its mass.
+template <class Real>
+void ElasticBody<Real>::weigh_bounds(const ElementGroup<Real>& group, std::size_t packet, const Real* bounds) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  const std::size_t end = std::min((packet + 1) * lanes, group.size());
+  if (!layout_->virtual_corners) {
+    for (std::size_t s = packet * lanes; s < end; ++s) {
+      const Real mass = group.density * group.volume[s];
+      weighted_bound_[group.first_corner / 4 + s] = {bounds[s % lanes] * mass, mass};
+    }
+    return;
+  }
+  for (std::size_t s = packet * lanes; s < end; s += element_points) {
+    Real largest = 0, mass = 0;
+    for (std::size_t q = s; q < s + element_points; ++q) {
+      const Real bound = bounds[q % lanes];
+      largest = bound > largest || std::isnan(bound) ? bound : largest;
+      mass += group.density * group.volume[q];
+    }
+    weighted_bound_[element_at(group, s)] = {largest * mass, mass};
+  }
+}
+
+/// Mean of the bounds of the elements at a node, whose packets have been evaluated; 0 at a node without one.
+template <class Real>
+Real ElasticBody<Real>::mean_bound(std::size_t node) const {
+  Real sum = 0, mass = 0;
+  each_element_at(node, [&](std::size_t e) {
+    sum += weighted_bound_[e].first;
+    mass += weighted_bound_[e].second;
+  });
+  return mass > 0 ? sum / mass : 0;
+}
+
+template <class Real>
+typename ElasticBody<Real>::Contribution ElasticBody<Real>::largest_contribution(std::size_t node) const {
+  Real most = 0, sum = 0;
+  std::size_t largest = 0;
+  each_element_at(node, [&](std::size_t e) {
+    const Real own = weighted_bound_[e].first;
+    sum += own;
+    if (own > most) most = own, largest = e;
+  });
+  if (!(most > 0)) return {};
+  const double share = static_cast<double>(most / sum);
+  if (layout_->virtual_corners) return {static_cast<int>(largest), share};
+  for (const Part& part : parts_) {
+    const std::size_t first = part.group->first_corner / 4;
+    if (largest - first < part.group->size()) return {part.group->element[largest - first], share};
+  }
+  return {};
 }
 
 template <class Real>
 Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
-  PacketBounds<Real> all;
+  NodeBounds<Real> all;
   return frequency_bound(x, team, all, 0);
 }
 
 template <class Real>
 Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
-  PacketBounds<Real> all;
+  NodeBounds<Real> all;
   return damping_bound(x, team, all, 0);
 }
 
 template <class Real>
-Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team, PacketBounds<Real>& packets, int steps) {
+Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps) {
   x = inner_positions(x, team);
-  Real bound =
-      max_bound(team, packets, steps, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
-        return term.frequency_bound(group, x, begin, end);
-      });
+  if (pressure_) pressure_->begin_bounds(x, team);
+  Real bound = max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
+    const Part& part = parts_[g];
+    std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
+    for (const auto& term : part.terms) term->frequency_bounds(*part.group, x, begin, end, bounds, true);
+    if (pressure_) pressure_->add_frequency_bounds(g, x, begin, end, bounds);
+    if (part.dilatation) part.dilatation->add_frequency_bounds(*part.group, x, begin, end, bounds);
+  });
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   bound += fans_.state_bound(fan_slots());
-  if (pressure_) bound += pressure_->frequency_bound(x, team);
-  Real of_elements = 0;
-  std::mutex mutex;
-  each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-    const Real value = part.dilatation->frequency_bound(*part.group, x, begin, end);
-    std::lock_guard lock(mutex);
-    of_elements = value > of_elements || std::isnan(value) ? value : of_elements;
-  });
-  bound += of_elements;
   if (!layout_->joints.springs.empty()) bound += layout_->joints.springs.frequency_bound(masses());
   return bound;
 }
 
 template <class Real>
-Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team, PacketBounds<Real>& packets, int steps) {
+Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps) {
   if (!has_internal_state()) return 0;
   x = inner_positions(x, team);
-  return max_bound(team, packets, steps, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
-    return term.damping_bound(group, x, begin, end);
+  return max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
+    std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
+    for (const auto& term : parts_[g].terms) term->damping_bounds(*parts_[g].group, x, begin, end, bounds, true);
   });
 }
 
 template <class Real>
-std::vector<int> ElasticBody<Real>::packets_near(const Vec3& place, double radius) const {
-  std::vector<int> near;
-  int first = 0;
-  for (const Part& part : parts_) {
-    const ElementGroup<Real>& group = *part.group;
-    for (std::size_t p = 0; p < group.packets(); ++p) {
-      bool is_near = false;
-      for (const auto& nodes : group.node)
-        for (std::size_t s = p * group.lanes; s < (p + 1) * group.lanes; ++s)
-          is_near |= (layout_->mesh.nodes[static_cast<std::size_t>(nodes[s])] - place).squaredNorm() <= radius * radius;
-      if (is_near) near.push_back(first + static_cast<int>(p));
-    }
-    first += static_cast<int>(group.packets());
+std::vector<int> ElasticBody<Real>::nodes_near(const Vec3& place, double radius) const {
+  std::vector<bool> is_near(nodes(), false);
+  const auto node_is_near = [&](int n) {
+    return (layout_->mesh.nodes[static_cast<std::size_t>(n)] - place).squaredNorm() <= radius * radius;
+  };
+  for (std::size_t t = 0; t < layout_->mesh.tets.size(); ++t) {
+    const auto& corners = layout_->mesh.tets[t];
+    if (!std::any_of(corners.begin(), corners.end(), node_is_near)) continue;
+    const auto mark = [&](const auto& list) {
+      for (const int n : list) is_near[static_cast<std::size_t>(n)] = true;
+    };
+    if (layout_->virtual_corners)
+      mark(layout_->virtual_corners->nodes_of(t / element_points));
+    else
+      mark(corners);
   }
+  std::vector<int> near;
+  for (std::size_t n = 0; n < is_near.size(); ++n)
+    if (is_near[n]) near.push_back(static_cast<int>(n));
   return near;
 }
 
-template <class Real>
-std::vector<Real> ElasticBody<Real>::element_bounds(const Real* x) const {
-  std::vector<Real> bounds(layout_->mesh.tets.size(), Real(0));
-  each_slot(
-      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
-        for (const auto& term : part.terms)
-          bounds[static_cast<std::size_t>(part.group->element[s])] +=
-              term->slot_frequency_bound(*part.group, s, kinematics, rest);
-      });
-  if (layout_->virtual_corners) {
-    for (std::size_t t = 0; t < elements(); ++t)
-      bounds[t] = *std::max_element(&bounds[element_points * t], &bounds[element_points * t] + element_points);
-    bounds.resize(elements());
-  }
-  return bounds;
-}
-
 template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&);
-template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&, PacketBounds<float>&, int);
+template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&, NodeBounds<float>&, int);
 template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&);
-template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&, PacketBounds<double>&, int);
+template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&, NodeBounds<double>&, int);
 template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&);
-template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&, PacketBounds<float>&, int);
-template std::vector<int> ElasticBody<float>::packets_near(const Vec3&, double) const;
+template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&, NodeBounds<float>&, int);
+template std::vector<int> ElasticBody<float>::nodes_near(const Vec3&, double) const;
 template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&);
-template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&, PacketBounds<double>&, int);
-template std::vector<int> ElasticBody<double>::packets_near(const Vec3&, double) const;
-template std::vector<float> ElasticBody<float>::element_bounds(const float*) const;
-template std::vector<double> ElasticBody<double>::element_bounds(const double*) const;
+template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&, NodeBounds<double>&, int);
+template std::vector<int> ElasticBody<double>::nodes_near(const Vec3&, double) const;
+template ElasticBody<float>::Contribution ElasticBody<float>::largest_contribution(std::size_t) const;
+template ElasticBody<double>::Contribution ElasticBody<double>::largest_contribution(std::size_t) const;
 
 }  // namespace heml

@@ -45,15 +45,14 @@ template <bool with_fibre, class Real>
   return bound;
 }
 
-/// Largest bound of packets [begin, end) for a law of invariants: its derivatives on packs, then one element a lane.
+/// group_frequency_bounds() of a law of invariants: its derivatives on packs, then one element a lane.
 template <class Real, class L>
-HEML_WIDE Real energy_group_bound(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                                  std::size_t end) {
+HEML_WIDE void energy_group_bounds(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                                   std::size_t end, Real* bounds, bool add) {
   using P = EnergyPack<Real>;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
   const auto many = law.template broadcast<P>();
-  Real largest = 0;
-  for (std::size_t p = begin; p < end; ++p) {
+  for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     Real d[14][lanes], bound[lanes];
     for (std::size_t first = 0; first < lanes; first += width) {
@@ -75,9 +74,8 @@ HEML_WIDE Real energy_group_bound(const L& law, const ElementGroup<Real>& group,
           evaluated, law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest), rest,
           group.gamma[p * lanes + l], group.density);
     }
-    for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
+    for (std::size_t l = 0; l < lanes; ++l) bounds[l] = (add ? bounds[l] : 0) + bound[l];
   }
-  return largest;
 }
 
 template <class P, class L>
@@ -184,10 +182,11 @@ class EnergyTerm final : public GroupTerm<Real> {
     GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
   }
 
-  Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override {
+  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
+                        bool add) const override {
     if constexpr (!requires { L::is_of_stretches; })
-      if (has_avx2()) return energy_group_bound<Real>(law_, group, x, begin, end);
-    return GroupTerm<Real>::frequency_bound(group, x, begin, end);
+      if (has_avx2()) return energy_group_bounds<Real>(law_, group, x, begin, end, bounds, add);
+    GroupTerm<Real>::frequency_bounds(group, x, begin, end, bounds, add);
   }
 
  private:

@@ -240,13 +240,12 @@ template <class P, class L>
   }
 }
 
-/// Largest element_frequency_bound() of packets [begin, end), 1/s²; NaN if one of them is.
+/// Writes element_frequency_bound() of packets [begin, end), 1/s², into bounds (8 a packet), or adds it.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline Real group_frequency_bound(const L& law, const ElementGroup<Real>& group, const Real* x,
-                                                         std::size_t begin, std::size_t end) {
+[[gnu::always_inline]] inline void group_frequency_bounds(const L& law, const ElementGroup<Real>& group, const Real* x,
+                                                          std::size_t begin, std::size_t end, Real* bounds, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
-  Real largest = 0;
-  for (std::size_t p = begin; p < end; ++p) {
+  for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     Real bound[lanes];
 #pragma GCC ivdep
@@ -256,9 +255,8 @@ template <class Real, Law<Real> L>
       const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
       bound[l] = element_frequency_bound(law, kinematics, rest, group.gamma[p * lanes + l], group.density);
     }
-    for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
+    for (std::size_t l = 0; l < lanes; ++l) bounds[l] = (add ? bounds[l] : 0) + bound[l];
   }
-  return largest;
 }
 
 }  // namespace heml

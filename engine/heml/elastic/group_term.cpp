@@ -85,14 +85,12 @@ void GroupTerm<Real>::mises_bounds(const Group&, const Real*, std::size_t begin,
 }
 
 template <class Real>
-Real GroupTerm<Real>::frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const {
-  Real largest = 0;
-  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+void GroupTerm<Real>::frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                       Real* bounds, bool add) const {
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s, ++bounds) {
     const auto rest = rest_shape(group, s);
-    const Real bound = slot_frequency_bound(group, s, full_kinematics(group, x, s, rest), rest);
-    largest = bound > largest || std::isnan(bound) ? bound : largest;
+    *bounds = (add ? *bounds : 0) + slot_frequency_bound(group, s, full_kinematics(group, x, s, rest), rest);
   }
-  return largest;
 }
 
 template <class Real>

@@ -5,6 +5,7 @@
 // A loop over packets is one virtual call. Terms of uniform laws override the loops with the vectorised ones of
 // group_loops.hpp. The default loops call the functions of one slot, which also serve parameters that vary by element
 // and internal state.
+#include <algorithm>
 #include <heml/elastic/deviatoric_stress.hpp>
 #include <heml/elastic/group_loops.hpp>
 #include <heml/elastic/slot_state.hpp>
@@ -58,16 +59,21 @@ class GroupTerm {
   /// Sums of energy() over each packet into of_packet (#packets), overwritten or added to.
   virtual void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
                         bool add) const;
-  /// Largest slot_frequency_bound().
-  virtual Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const;
+  /// Writes slot_frequency_bound() of the slots into bounds (8 a packet), or adds it.
+  virtual void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
+                                bool add) const;
   /// Writes tensions() of the slots into of_packets: [packet][T, wJ][lanes], 7 lists a packet.
   virtual void packet_tensions(const Group& group, const Real* x, std::size_t begin, std::size_t end,
                                Real* of_packets) const;
   /// Writes an upper bound of the von Mises stress of deviatoric_stress() for each slot, Pa (8 a packet): close to it,
   /// or infinite where only deviatoric_stress() tells.
   virtual void mises_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
-  /// Upper bound of λ_max(M_t⁻¹D_t), 1/s, D the damping matrix of the term.
-  virtual Real damping_bound(const Group&, const Real*, std::size_t, std::size_t) const { return 0; }
+  /// Writes upper bounds of λ_max(M_t⁻¹D_t), 1/s, of the slots into bounds (8 a packet), or adds them; D: the damping
+  /// matrix of the term.
+  virtual void damping_bounds(const Group&, const Real*, std::size_t begin, std::size_t end, Real* bounds,
+                              bool add) const {
+    if (!add) std::fill_n(bounds, (end - begin) * Group::lanes, Real(0));
+  }
 
   // Internal state. begin_step() starts a step of h seconds from the state committed last; commit() stores the state at
   // x; reset_history() discards the state and takes x as relaxed.

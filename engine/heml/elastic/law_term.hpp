@@ -38,9 +38,9 @@ HEML_WIDE void wide_mises_bounds(const LawSource<Real, L>& law, const ElementGro
   group_mises_bounds<WidePack<Real>, L>({law, group}, group, x, begin, end, bounds);
 }
 template <class Real, class L>
-HEML_WIDE Real wide_frequency_bound(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                                    std::size_t end) {
-  return group_frequency_bound<Real>(law, group, x, begin, end);
+HEML_WIDE void wide_frequency_bounds(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                                     std::size_t end, Real* bounds, bool add) {
+  group_frequency_bounds<Real>(law, group, x, begin, end, bounds, add);
 }
 
 template <class Real, Law<Real> L>
@@ -116,9 +116,10 @@ class LawTerm final : public GroupTerm<Real> {
     GroupTerm<Real>::mises_bounds(group, x, begin, end, bounds);
   }
 
-  Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override {
-    if (!source_.uniform() || !has_avx2()) return GroupTerm<Real>::frequency_bound(group, x, begin, end);
-    return wide_frequency_bound<Real>(source_.uniform_law(), group, x, begin, end);
+  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
+                        bool add) const override {
+    if (!source_.uniform() || !has_avx2()) return GroupTerm<Real>::frequency_bounds(group, x, begin, end, bounds, add);
+    wide_frequency_bounds<Real>(source_.uniform_law(), group, x, begin, end, bounds, add);
   }
 
  private:

@@ -205,9 +205,8 @@ void MeanDilatation<Real>::add_stiffness(const Group& group, const Real* x, bool
 
 /// κ̄ψ''/V g·M⁻¹g of an element, exact for its part of the stiffness, and |d²J| ≤ 2 σ1 |dF|² at the worst point.
 template <class Real>
-Real MeanDilatation<Real>::frequency_bound(const Group& group, const Real* x, std::size_t begin,
-                                           std::size_t end) const {
-  Real largest = 0;
+void MeanDilatation<Real>::add_frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                                Real* bounds) const {
   for (std::size_t s = begin * Group::lanes; s < std::min(end * Group::lanes, group.size()); s += element_points) {
     const Value at = value(group, x, s);
     Real g[30], corners = 0, middles = 0, mass = 0, geometric = 0;
@@ -220,9 +219,8 @@ Real MeanDilatation<Real>::frequency_bound(const Group& group, const Real* x, st
       mass += group.density * static_cast<Real>(frequency_ratio) * group.volume[q];
     }
     const Real bound = std::max(at.stiffness, Real(0)) * (corners * 36 + middles * Real(27.0 / 4)) / mass + geometric;
-    largest = bound > largest || std::isnan(bound) ? bound : largest;
+    for (std::size_t q = s; q < s + element_points; ++q) bounds[q - begin * Group::lanes] += bound;
   }
-  return largest;
 }
 
 template std::vector<float> volume_moduli(const ElementGroup<float>&, const Material&);

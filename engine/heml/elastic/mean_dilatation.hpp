@@ -42,8 +42,8 @@ class MeanDilatation {
   bool add_forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner) const;
   /// Adds the energies (J) of each packet.
   void add_energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet) const;
-  /// Upper bound of λ_max(M⁻¹K), 1/s².
-  Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const;
+  /// Adds upper bounds of λ_max(M⁻¹K), 1/s², of the elements to those of their slots (8 a packet).
+  void add_frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
 
   /// To be called before linearise().
   void resize(const Group& group) { linear_.resize(group.volume.size() / 4); }

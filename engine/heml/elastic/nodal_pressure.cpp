@@ -4,7 +4,6 @@
 #include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
 #include <heml/elastic/volume_function.hpp>
-#include <mutex>
 
 namespace heml {
 namespace {
@@ -58,13 +57,12 @@ HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real*
     write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), true);
   }
 }
-/// Largest bound of packets [begin, end), with the largest stiffness κ ψ'' and the mean pressure of four nodes.
+/// Adds to bounds (8 a packet), with the largest stiffness κ ψ'' and the mean pressure of four nodes.
 template <class Real>
-[[gnu::always_inline]] inline Real packet_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
-                                                 const Real* pressure, std::size_t begin, std::size_t end) {
+[[gnu::always_inline]] inline void add_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
+                                              const Real* pressure, std::size_t begin, std::size_t end, Real* bounds) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
-  Real largest = 0;
-  for (std::size_t p = begin; p < end; ++p) {
+  for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, false> packet(group, x, p * lanes);
     Real kappa[lanes] = {}, mean[lanes] = {}, bound[lanes];
     for (const auto& list : group.node)
@@ -82,15 +80,14 @@ template <class Real>
           (kappa[l] * corner_sums(kinematics, rest).nJ +
            2 * std::abs(mean[l] / 4) * std::sqrt(stretch_bounds(kinematics.at).max) * group.gamma[p * lanes + l]);
     }
-    for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
+    for (std::size_t l = 0; l < lanes; ++l) bounds[l] += bound[l];
   }
-  return largest;
 }
 
 template <class Real>
-HEML_WIDE Real wide_packet_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
-                                  const Real* pressure, std::size_t begin, std::size_t end) {
-  return packet_bounds(group, x, stiffness, pressure, begin, end);
+HEML_WIDE void add_wide_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
+                               const Real* pressure, std::size_t begin, std::size_t end, Real* bounds) {
+  add_bounds(group, x, stiffness, pressure, begin, end, bounds);
 }
 }  // namespace
 
@@ -274,24 +271,19 @@ double NodalPressure<Real>::energy(const Real* x) {
 /// (Σ w dJ)² ≤ Σ w (dJ)² at every node (Jensen), so the averaged form is bounded by the form per element with the
 /// largest κ ψ'' of its corners; p_t d²J is bounded by |d²J| ≤ 2 σ1 |dF|².
 template <class Real>
-Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
+void NodalPressure<Real>::begin_bounds(const Real* x, ThreadTeam& team) {
   average(x, last_, team);
-  std::vector<Real> stiffness(last_.ratio.size());
-  for (std::size_t n = 0; n < stiffness.size(); ++n)
-    stiffness[n] = node_kappa_[n] * std::max(psi(last_.ratio[n]).w2, Real(0));
-  Real largest = 0;
-  std::mutex mutex;  // a maximum does not depend on the order it is taken in
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const ElementGroup<Real>& group = *groups_[g];
-    team.parallel_for(group.packets(), slot_grain / group.lanes, [&](std::size_t begin, std::size_t end) {
-      const Real* pressure = last_.pressure.data();
-      const Real most = has_avx2() ? wide_packet_bounds(group, x, stiffness.data(), pressure, begin, end)
-                                   : packet_bounds(group, x, stiffness.data(), pressure, begin, end);
-      std::lock_guard lock(mutex);
-      largest = most > largest || std::isnan(most) ? most : largest;
-    });
-  }
-  return largest;
+  stiffness_.resize(last_.ratio.size());
+  for (std::size_t n = 0; n < stiffness_.size(); ++n)
+    stiffness_[n] = node_kappa_[n] * std::max(psi(last_.ratio[n]).w2, Real(0));
+}
+
+template <class Real>
+void NodalPressure<Real>::add_frequency_bounds(std::size_t g, const Real* x, std::size_t begin, std::size_t end,
+                                               Real* bounds) const {
+  const Real *stiffness = stiffness_.data(), *pressure = last_.pressure.data();
+  if (has_avx2()) return add_wide_bounds(*groups_[g], x, stiffness, pressure, begin, end, bounds);
+  add_bounds(*groups_[g], x, stiffness, pressure, begin, end, bounds);
 }
 
 template <class Real>

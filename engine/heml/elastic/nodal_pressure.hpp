@@ -40,11 +40,14 @@ class NodalPressure {
   void add_stiffness(std::size_t group, const Real* x, std::size_t s, Real K[edge_entries]) const;
 
   double energy(const Real* x);  ///< J
-  /// Upper bound of λ_max(M⁻¹K) of these terms, 1/s².
-  Real frequency_bound(const Real* x, ThreadTeam& team);
+  /// Evaluates volume ratios and pressures at x for add_frequency_bounds(), valid until the next evaluation.
+  void begin_bounds(const Real* x, ThreadTeam& team);
+  /// Adds to bounds (8 a packet) for packets [begin, end) of a group how far these terms raise those of its elements,
+  /// 1/s²: K ≤ Σ b_t M_t. Threads: any, on disjoint ranges.
+  void add_frequency_bounds(std::size_t group, const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
   std::size_t bytes() const {
     return bytes_of(kappa_, node_volume_, node_kappa_, last_.ratio, last_.pressure, linear_.ratio, linear_.pressure,
-                    of_corner_);
+                    of_corner_, stiffness_);
   }
 
  private:
@@ -67,6 +70,7 @@ class NodalPressure {
   NodeValues last_;                             ///< at the x of the last evaluation, scratch
   NodeValues linear_;                           ///< at the point of linearise()
   std::vector<Real> of_corner_;                 ///< one a slot, scratch
+  std::vector<Real> stiffness_;                 ///< #V, κ ψ'' of begin_bounds(), scratch
 };
 
 }  // namespace heml

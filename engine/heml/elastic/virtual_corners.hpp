@@ -7,6 +7,7 @@
 #include <heml/elastic/quadratic_map.hpp>
 #include <heml/math/bytes.hpp>
 #include <heml/mesh/quadratic.hpp>
+#include <span>
 #include <vector>
 
 namespace heml {
@@ -37,6 +38,10 @@ class VirtualCorners {
   /// ∫ρN (#V, kg), which gravity acts on. point_mass: 4 #T.
   std::vector<Real> consistent(const std::vector<double>& point_mass) const;
 
+  /// Where a node is in the elements: 10 element + local node, ascending.
+  std::span<const std::size_t> places_at(std::size_t node) const {
+    return {places_.data() + start_[node], places_.data() + start_[node + 1]};
+  }
   std::size_t nodes() const { return start_.size() - 1; }
   std::size_t elements() const { return nodes_.size(); }
   const QuadraticNodes& nodes_of(std::size_t element) const { return nodes_[element]; }

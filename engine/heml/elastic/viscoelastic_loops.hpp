@@ -174,13 +174,14 @@ void each_run_with_law(const GroupTerm<Real>& law, const ElementGroup<Real>& gro
   }
 }
 
-/// Largest bound of the damping of packets [begin, end), 1/s: uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
+/// Writes bounds of the damping of packets [begin, end), 1/s, into bounds (8 a packet), or adds them:
+/// uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
 template <class Real>
-[[gnu::always_inline]] inline Real viscous_bound(const MemoryOf<Real>& of, const ElementGroup<Real>& group,
-                                                 const Real* x, std::size_t begin, std::size_t end) {
+[[gnu::always_inline]] inline void viscous_bounds(const MemoryOf<Real>& of, const ElementGroup<Real>& group,
+                                                  const Real* x, std::size_t begin, std::size_t end, Real* bounds,
+                                                  bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
-  Real largest = 0;
-  for (std::size_t p = begin; p < end; ++p) {
+  for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, false> packet(group, x, p * lanes);
     Real bound[lanes];
 #pragma GCC ivdep
@@ -192,15 +193,14 @@ template <class Real>
                  (2 * of.eta * stretch_bounds(kinematics.at).max * group.gamma[p * lanes + l] +
                   of.zeta / 4 * corner_sums(kinematics, rest).n1);
     }
-    for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
+    for (std::size_t l = 0; l < lanes; ++l) bounds[l] = (add ? bounds[l] : 0) + bound[l];
   }
-  return largest;
 }
 
 template <class Real>
-HEML_WIDE Real wide_viscous_bound(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
-                                  std::size_t begin, std::size_t end) {
-  return viscous_bound(of, group, x, begin, end);
+HEML_WIDE void wide_viscous_bounds(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                                   std::size_t begin, std::size_t end, Real* bounds, bool add) {
+  viscous_bounds(of, group, x, begin, end, bounds, add);
 }
 
 }  // namespace heml

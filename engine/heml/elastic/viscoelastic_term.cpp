@@ -168,23 +168,26 @@ Real ViscoelasticTerm<Real>::slot_state_bound(const Group& group, std::size_t s)
 }
 
 template <class Real>
-Real ViscoelasticTerm<Real>::frequency_bound(const Group& group, const Real* x, std::size_t begin,
-                                             std::size_t end) const {
-  if (branches_.empty()) return 0;
-  Real largest = 0;
-  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes && !in_fans_; ++s) {
-    const Real bound = slot_state_bound(group, s);
-    largest = bound > largest || std::isnan(bound) ? bound : largest;
+void ViscoelasticTerm<Real>::frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                              Real* bounds, bool add) const {
+  constexpr std::size_t lanes = Group::lanes;
+  if (!add) std::fill_n(bounds, (end - begin) * lanes, Real(0));
+  if (branches_.empty()) return;
+  Real of_law[lanes];
+  for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
+    law_->frequency_bounds(group, x, p, p + 1, of_law, false);
+    for (std::size_t l = 0; l < lanes; ++l)
+      bounds[l] += total_gamma_ * of_law[l] + (in_fans_ ? 0 : slot_state_bound(group, p * lanes + l));
   }
-  return total_gamma_ * law_->frequency_bound(group, x, begin, end) + largest;
 }
 
 template <class Real>
-Real ViscoelasticTerm<Real>::damping_bound(const Group& group, const Real* x, std::size_t begin,
-                                           std::size_t end) const {
-  if (eta_ == 0 && zeta_ == 0) return 0;
+void ViscoelasticTerm<Real>::damping_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                            Real* bounds, bool add) const {
+  if (eta_ == 0 && zeta_ == 0) return GroupTerm<Real>::damping_bounds(group, x, begin, end, bounds, add);
   const MemoryOf<Real> of = memory();
-  return has_avx2() ? wide_viscous_bound(of, group, x, begin, end) : viscous_bound(of, group, x, begin, end);
+  if (has_avx2()) return wide_viscous_bounds(of, group, x, begin, end, bounds, add);
+  viscous_bounds(of, group, x, begin, end, bounds, add);
 }
 
 template <class Real>

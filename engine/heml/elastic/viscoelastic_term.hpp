@@ -43,8 +43,10 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
                                       const KinematicsDifferential<Real>& change) const override;
   Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                             const RestShape<Real>& rest) const override;
-  Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override;
-  Real damping_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override;
+  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
+                        bool add) const override;
+  void damping_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
+                      bool add) const override;
   double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                 const RestShape<Real>& rest) const override;
   bool stores() const override { return false; }

@@ -134,7 +134,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-constexpr double stands_out = 4;  // times the median element's bound of ω²: half its stable step
+constexpr double stands_out = 4;  // times the median node's bound of ω²: half its stable step
 constexpr double flat_degrees = 15;
 
 LimitFacts limit_of(const WorldSetup& setup, const StepFacts& step) {

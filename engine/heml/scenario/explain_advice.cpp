@@ -52,12 +52,13 @@ void advise_on_volume(const Explanation& explained, const MaterialFacts& materia
 void advise_on_mesh(const Explanation& explained, std::vector<Advice>& advice) {
   const LimitFacts& limit = explained.limit;
   if (!explained.world.solver && limit.cause != LimitFacts::Cause::none)
-    advice.push_back({"limiting_element",
-                      fmt::format("element {} alone makes explicit steps {:.2g} times shorter than the median element "
-                                  "would",
-                                  limit.element, std::sqrt(explained.world.step.median_ratio)),
-                      limit.cause == LimitFacts::Cause::stiff ? "soften its material, or an implicit method"
-                                                              : "improve the mesh there, or an implicit method"});
+    advice.push_back(
+        {"limiting_element",
+         fmt::format("element {} and those round it make explicit steps {:.2g} times shorter than the median "
+                     "of the mesh would",
+                     limit.element, std::sqrt(explained.world.step.median_ratio)),
+         limit.cause == LimitFacts::Cause::stiff ? "soften its material, or an implicit method"
+                                                 : "improve the mesh there, or an implicit method"});
   if (explained.quality.slivers > 0)
     advice.push_back(
         {"sliver",

@@ -31,12 +31,14 @@ StepFacts WorldQueries<Real>::step_facts() const {
   facts.stable = s_.limit.stable;
   if (is_explicit(s_.method) && !s_.setup->solver.step && s_.limit.stable > 0)
     facts.steps_per_tick = static_cast<int>(std::clamp(std::ceil(facts.tick / s_.limit.stable), 1.0, 1.0 * most_steps));
-  std::vector<Real> bounds = s_.body.element_bounds(s_.state.x.data());
-  const auto largest = std::max_element(bounds.begin(), bounds.end());
-  if (!(*largest > 0)) return facts;
-  facts.element = s_.model->order.file_tet[static_cast<std::size_t>(largest - bounds.begin())];
-  const double most = static_cast<double>(*largest);
-  facts.element_share = std::min(most / static_cast<double>(s_.body.frequency_bound(s_.state.x.data(), s_.team)), 1.0);
+  NodeBounds<Real> nodes;
+  const Real bound = s_.body.frequency_bound(s_.state.x.data(), s_.team, nodes, 0);
+  const auto [element, share] = s_.body.largest_contribution(nodes.largest_node());
+  if (element < 0) return facts;
+  facts.element = s_.model->order.file_tet[static_cast<std::size_t>(element)];
+  std::vector<Real> bounds = nodes.bounds();
+  const double most = static_cast<double>(bounds[nodes.largest_node()]);
+  facts.element_share = share * most / static_cast<double>(bound);
   const auto middle = bounds.begin() + static_cast<std::ptrdiff_t>(bounds.size() / 2);
   std::nth_element(bounds.begin(), middle, bounds.end());
   facts.median_ratio = most / static_cast<double>(*middle);

@@ -24,9 +24,9 @@ struct MethodFacts {
 struct StepFacts {
   double tick = 0, stable = 0;  ///< s
   int steps_per_tick = 1;       ///< of the method in use
-  int element = -1;             ///< the stiffest for its mass, mesh-file order; −1: none (springs)
-  double element_share = 0;     ///< of the bound of ω² that is this element's own, to 1; the rest is nodal pressure's
-  double median_ratio = 0;      ///< its bound over that of the median element
+  int element = -1;             ///< adds most to ω² at the node that limits the step, mesh-file order; −1: springs
+  double element_share = 0;     ///< how much of the bound of ω² it adds, to 1
+  double median_ratio = 0;      ///< the bound of that node (elastic/node_bounds.hpp) over the one of the median node
 };
 
 /// Of an implicit or a static world.

@@ -56,7 +56,7 @@ struct SimulationState {
 
   Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
   StepLimit limit;
-  PacketBounds<Real> frequency_bounds, damping_bounds;  ///< of acting_body(), behind the limit
+  NodeBounds<Real> frequency_bounds, damping_bounds;  ///< of acting_body(), behind the limit
   long ticks = 0, steps = 0;
   long origin_tick = 0;            ///< tick of the start, the last Reset, or the last change of the rate
   double origin_time = 0;          ///< s, state.time at origin_tick

@@ -6,7 +6,8 @@ namespace heml {
 namespace {
 // Of the live limit; the bound is evaluated again every few steps.
 constexpr double safety = 0.9;
-// Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
+// Of cut tissue: what is left, most of all the smallest pieces, swings by as much as its own size, and the limit
+// changes meanwhile.
 constexpr double safety_of_pieces = 0.7;
 constexpr double safety_of_shreds = 0.5;
 // The limit oscillates with a body that is crushed, lands, or hangs by a corner. Steps that grow in that rhythm feed
@@ -29,19 +30,19 @@ bool watches_grasps(const Simulation<Real>& s) {
 /// Chooses the elements that hands deform.
 template <class Real>
 void watch_grasps(Simulation<Real>& s) {
-  std::vector<int> packets;
+  std::vector<int> nodes;
   s.limit.watched.clear();
   for (const auto& grasp : s.grasps) {
     s.limit.watched.push_back(grasp.id().serial);
     const Vec3& place = s.model->mesh.nodes[static_cast<std::size_t>(grasp.center())];
     const double radius = static_cast<double>(grasp.radius()) + watched_spacings * s.model->spacing;
-    const std::vector<int> near = s.acting_body().packets_near(place, radius);
-    packets.insert(packets.end(), near.begin(), near.end());
+    const std::vector<int> near = s.acting_body().nodes_near(place, radius);
+    nodes.insert(nodes.end(), near.begin(), near.end());
   }
-  std::sort(packets.begin(), packets.end());
-  packets.erase(std::unique(packets.begin(), packets.end()), packets.end());
-  s.damping_bounds.watch(packets);
-  s.frequency_bounds.watch(std::move(packets));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  s.damping_bounds.watch(nodes);
+  s.frequency_bounds.watch(std::move(nodes));
 }
 
 template <class Real>
@@ -65,7 +66,8 @@ void evaluate_bounds(Simulation<Real>& s) {
       omega + (s.has_internal_state
                    ? static_cast<double>(body.damping_bound(s.state.x.data(), s.team, s.damping_bounds, steps)) / 2
                    : 0);
-  const bool cut = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.split > 0; });
+  const bool cut = std::any_of(s.edits.begin(), s.edits.end(),
+                               [](const EditReport& edit) { return edit.split > 0 || edit.removed > 0; });
   const bool torn = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.torn > 0; });
   const double part = torn ? safety_of_shreds : cut ? safety_of_pieces : safety;
   s.limit.stable = part * 2 / (half + std::sqrt(half * half + lambda));

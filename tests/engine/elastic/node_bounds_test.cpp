@@ -1,0 +1,222 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <heml/elastic/node_bounds.hpp>
+#include <heml/mesh/quadratic.hpp>
+#include <limits>
+#include <random>
+
+#include "small_body.hpp"
+
+namespace heml::node_bounds_test {
+namespace {
+
+/// One evaluation of these bounds, `steps` after the last.
+double evaluate(NodeBounds<double>& nodes, const std::vector<double>& bounds, int steps) {
+  nodes.begin(bounds.size(), steps);
+  for (const int n : nodes.due()) nodes.set(static_cast<std::size_t>(n), bounds[static_cast<std::size_t>(n)]);
+  return nodes.end();
+}
+
+double maximum(const std::vector<double>& bounds) { return *std::max_element(bounds.begin(), bounds.end()); }
+
+}  // namespace
+
+TEST_CASE("node bounds: a node far below the maximum waits for its turn, the largest does not") {
+  NodeBounds<double> nodes;
+  const std::vector<double> bounds{1, 10, 2, 10};
+  CHECK(evaluate(nodes, bounds, 8) == 10);
+  CHECK(nodes.due().size() == 4);
+  CHECK(evaluate(nodes, bounds, 2) == 10);
+  CHECK(nodes.due().size() == 4);  // how fast they grow is known only now
+  for (int steps = 2; steps < NodeBounds<double>::max_age; steps += 2) {
+    CHECK(evaluate(nodes, bounds, 2) == 10);
+    CHECK(nodes.due() == std::vector<int>{1, 3});
+  }
+  evaluate(nodes, bounds, 2);
+  CHECK(nodes.due().size() == 4);
+}
+
+TEST_CASE("node bounds: where one grows fast, others may have") {
+  NodeBounds<double> nodes;
+  std::vector<double> bounds{1, 10, 9, 10};
+  for (int k = 0; k < 3; ++k) evaluate(nodes, bounds, 1);
+  CHECK(nodes.due() == std::vector<int>{1, 3});
+  bounds[1] = 11;  // in one step: two could take 9 to 11 in one
+  evaluate(nodes, bounds, 1);
+  bounds[2] = 20;
+  CHECK(evaluate(nodes, bounds, 1) == 20);
+  CHECK(nodes.due() == std::vector<int>{1, 2, 3});
+}
+
+TEST_CASE("node bounds: no maximum is missed while none grows faster than one that is watched") {
+  std::mt19937_64 random(3);
+  long looked = 0, all = 0;
+  for (int round = 0; round < 20; ++round) {
+    const std::size_t count = 400;
+    const int fastest = std::uniform_int_distribution<int>(0, static_cast<int>(count) - 1)(random);
+    std::vector<double> bounds(count), growth(count);
+    for (std::size_t p = 0; p < count; ++p) {
+      bounds[p] = test::uniform(random, 0, 100);
+      growth[p] = test::uniform(random, 0, 0.05);
+    }
+    growth[static_cast<std::size_t>(fastest)] = 0.05;
+    NodeBounds<double> nodes;
+    nodes.watch({fastest});
+    for (int k = 0; k < 200; ++k) {
+      const int steps = std::uniform_int_distribution<int>(1, 4)(random);
+      for (std::size_t p = 0; p < count; ++p) bounds[p] += steps * growth[p];
+      REQUIRE(evaluate(nodes, bounds, steps) == maximum(bounds));
+      looked += static_cast<long>(nodes.due().size());
+      all += static_cast<long>(count);
+    }
+  }
+  CHECK(looked < all / 4);
+}
+
+TEST_CASE("node bounds: watched ones are looked at each time, and all after something else is the case") {
+  NodeBounds<double> nodes;
+  std::vector<double> bounds{1, 10, 2, 10, 3};
+  nodes.watch({0, 4});
+  for (int k = 0; k < 3; ++k) evaluate(nodes, bounds, 1);
+  CHECK(nodes.due() == std::vector<int>{0, 1, 3, 4});
+  bounds[0] = 30;
+  CHECK(evaluate(nodes, bounds, 1) == 30);
+  bounds[1] = bounds[3] = bounds[0] = 5;  // the largest falls: what is known of the rest holds
+  CHECK(evaluate(nodes, bounds, 1) == 5);
+  nodes.forget();
+  bounds[2] = 70;
+  CHECK(evaluate(nodes, bounds, 1) == 70);
+  bounds.assign(2, 4);
+  CHECK(evaluate(nodes, bounds, 1) == 4);
+  CHECK(evaluate(nodes, {}, 1) == 0);
+}
+
+TEST_CASE("node bounds: one that is no number is told, until it is one again") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  NodeBounds<double> nodes;
+  std::vector<double> bounds{1, 10, 2};
+  for (int k = 0; k < 3; ++k) evaluate(nodes, bounds, 1);
+  bounds[1] = nan;
+  CHECK(std::isnan(evaluate(nodes, bounds, 1)));
+  bounds[1] = infinity;
+  CHECK(evaluate(nodes, bounds, 1) == infinity);
+  bounds[1] = 10;
+  CHECK(evaluate(nodes, bounds, 1) == 10);
+  for (int k = 0; k < NodeBounds<double>::max_age + 3; ++k) evaluate(nodes, bounds, 1);
+  CHECK(nodes.due() == std::vector<int>{1});
+}
+
+TEST_CASE("node bounds of a body: at each node the mean of its elements alone, weighted by mass") {
+  std::mt19937_64 random(6);
+  const auto bent = [](const TetMesh& mesh) {
+    std::vector<double> x;
+    for (const Vec3& X : mesh.nodes)
+      x.insert(x.end(), {X.x() + 3 * X.y() * X.z(), 1.1 * X.y(), X.z() - 2 * X.x() * X.x()});
+    return x;
+  };
+  const std::vector<Material> materials{test::sample_material("neo_hookean"), test::sample_material("mooney_rivlin")};
+  ThreadTeam team(1);
+  for (const bool quadratic : {false, true}) {
+    CAPTURE(quadratic);
+    TetMesh mesh = test::irregular_box(random, {4, 3, 2});
+    std::vector<int> material_of(mesh.tets.size());
+    for (std::size_t t = 0; t < material_of.size(); ++t) material_of[t] = static_cast<int>(t % 2);
+    const std::size_t corners = mesh.nodes.size();
+    std::vector<double> sum(corners, 0.0), mass(corners, 0.0), of_element;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      TetMesh one;
+      for (const int n : mesh.tets[t]) one.nodes.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
+      one.tets = {{0, 1, 2, 3}};
+      one.regions = {0};
+      const Material& material = materials[static_cast<std::size_t>(material_of[t])];
+      const double m = material.density * signed_volume(one.nodes[0], one.nodes[1], one.nodes[2], one.nodes[3]);
+      const MidEdges midedges = quadratic ? add_midedge_nodes(one) : MidEdges{};
+      ElasticBody<double> alone(one, {0}, {material}, BodyOptions{true, false}, midedges);
+      of_element.push_back(alone.frequency_bound(bent(one).data(), team));
+      for (const int n : mesh.tets[t]) {
+        sum[static_cast<std::size_t>(n)] += of_element.back() * m;
+        mass[static_cast<std::size_t>(n)] += m;
+      }
+    }
+    const MidEdges midedges = quadratic ? add_midedge_nodes(mesh) : MidEdges{};
+    ElasticBody<double> body(mesh, material_of, materials, BodyOptions{true, false}, midedges);
+    NodeBounds<double> nodes;
+    const double bound = body.frequency_bound(bent(mesh).data(), team, nodes, 0);
+    CHECK(bound == nodes.bounds()[nodes.largest_node()]);
+    CHECK((quadratic ? bound <= maximum(of_element) : bound < 0.9 * maximum(of_element)));
+    for (std::size_t n = 0; n < corners; ++n)
+      CHECK(nodes.bounds()[n] == doctest::Approx(sum[n] / mass[n]).epsilon(1e-12));
+    const auto [element, share] = body.largest_contribution(nodes.largest_node());
+    REQUIRE(element >= 0);
+    CHECK(of_element[static_cast<std::size_t>(element)] >= bound);
+    CHECK((share > 0.1 && share <= 1));
+  }
+}
+
+TEST_CASE("node bounds of a body: at first those of all nodes, then of those near the largest, by any threads") {
+  std::mt19937_64 random(4);
+  const TetMesh mesh = test::irregular_box(random, {12, 10, 8});
+  std::vector<int> material_of(mesh.tets.size());
+  for (std::size_t t = 0; t < material_of.size(); ++t) material_of[t] = static_cast<int>(t % 2);
+  ElasticBody<double> body(mesh, material_of,
+                           {test::sample_material("neo_hookean"), test::sample_material("mooney_rivlin")},
+                           BodyOptions{true, false});
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) x.insert(x.end(), {X.x(), X.y(), X.z()});
+  const Mat3 stretch = Vec3(-2e-4, 1e-4, 0).asDiagonal();  // a step, and more to one side than to the other
+  NodeBounds<double> of_one, of_three;
+  ThreadTeam one(1), three(3);
+  std::size_t looked = 0, all = 0;
+  for (int k = 0; k < 50; ++k) {
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      Eigen::Map<Vec3>(&x[3 * n]) += mesh.nodes[n].x() / 0.1 * (stretch * mesh.nodes[n]);
+    const double whole = body.frequency_bound(x.data(), one);
+    const double partial = body.frequency_bound(x.data(), one, of_one, 2);
+    CHECK(body.frequency_bound(x.data(), three, of_three, 2) == partial);
+    if (k < 2) CHECK(partial == whole);
+    CHECK(partial == doctest::Approx(whole).epsilon(0.02));
+    looked += of_one.due().size();
+    all += mesh.nodes.size();
+  }
+  CHECK(looked < all / 4);
+}
+
+TEST_CASE("node bounds of a body: those near a place are watched where nobody would look") {
+  std::mt19937_64 random(5);
+  const TetMesh mesh = test::irregular_box(random, {8, 8, 8});
+  ElasticBody<double> body(mesh, std::vector<int>(mesh.tets.size(), 0), {test::sample_material("neo_hookean")},
+                           BodyOptions{true, false});
+  ThreadTeam team(1);
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) x.insert(x.end(), {X.x(), X.y(), X.z()});
+  const auto all = body.nodes_near(Vec3::Zero(), 1.0);
+  CHECK(all.size() == mesh.nodes.size());
+  // A node of low bound is pressed against its neighbours between two evaluations.
+  NodeBounds<double> at_rest;
+  body.frequency_bound(x.data(), team, at_rest, 0);
+  const auto& bounds = at_rest.bounds();
+  const auto n = static_cast<std::size_t>(std::min_element(bounds.begin(), bounds.end()) - bounds.begin());
+  const auto beside = *std::find_if(mesh.tets.begin(), mesh.tets.end(), [n](const Tet& tet) {
+    return std::find(tet.begin(), tet.end(), static_cast<int>(n)) != tet.end();
+  });
+  const auto other = static_cast<std::size_t>(beside[0] == static_cast<int>(n) ? beside[1] : beside[0]);
+  const auto near = body.nodes_near(mesh.nodes[n], 1e-9);
+  REQUIRE_FALSE(near.empty());
+  REQUIRE(near.size() < all.size() / 2);
+  for (const bool watches : {false, true}) {
+    NodeBounds<double> nodes;
+    if (watches) nodes.watch(near);
+    auto moved = x;
+    for (int k = 0; k < 3; ++k) body.frequency_bound(moved.data(), team, nodes, 1);
+    for (int i = 0; i < 3; ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      moved[3 * n + c] += 0.9 * (mesh.nodes[other][i] - x[3 * n + c]);
+    }
+    const double whole = body.frequency_bound(moved.data(), team);
+    const double partial = body.frequency_bound(moved.data(), team, nodes, 1);
+    CHECK((partial == whole) == watches);
+  }
+}
+
+}  // namespace heml::node_bounds_test
