@@ -166,9 +166,6 @@ class ElasticBody {
     double share = 0;
   };
   Contribution largest_contribution(std::size_t node) const;
-  /// Nodes of the elements (of quadratic ones, the points) with a corner within `radius` of `place` at rest, m;
-  /// ascending.
-  std::vector<int> nodes_near(const Vec3& place, double radius) const;
 
   /// Size of all arrays, in bytes.
   std::size_t bytes() const;

@@ -176,39 +176,14 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team, NodeBound
   });
 }
 
-template <class Real>
-std::vector<int> ElasticBody<Real>::nodes_near(const Vec3& place, double radius) const {
-  std::vector<bool> is_near(nodes(), false);
-  const auto node_is_near = [&](int n) {
-    return (layout_->mesh.nodes[static_cast<std::size_t>(n)] - place).squaredNorm() <= radius * radius;
-  };
-  for (std::size_t t = 0; t < layout_->mesh.tets.size(); ++t) {
-    const auto& corners = layout_->mesh.tets[t];
-    if (!std::any_of(corners.begin(), corners.end(), node_is_near)) continue;
-    const auto mark = [&](const auto& list) {
-      for (const int n : list) is_near[static_cast<std::size_t>(n)] = true;
-    };
-    if (layout_->virtual_corners)
-      mark(layout_->virtual_corners->nodes_of(t / element_points));
-    else
-      mark(corners);
-  }
-  std::vector<int> near;
-  for (std::size_t n = 0; n < is_near.size(); ++n)
-    if (is_near[n]) near.push_back(static_cast<int>(n));
-  return near;
-}
-
 template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&);
 template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&, NodeBounds<float>&, int);
 template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&);
 template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&, NodeBounds<double>&, int);
 template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&);
 template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&, NodeBounds<float>&, int);
-template std::vector<int> ElasticBody<float>::nodes_near(const Vec3&, double) const;
 template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&);
 template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&, NodeBounds<double>&, int);
-template std::vector<int> ElasticBody<double>::nodes_near(const Vec3&, double) const;
 template ElasticBody<float>::Contribution ElasticBody<float>::largest_contribution(std::size_t) const;
 template ElasticBody<double>::Contribution ElasticBody<double>::largest_contribution(std::size_t) const;
 

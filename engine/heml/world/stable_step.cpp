@@ -17,7 +17,7 @@ constexpr double growth_of_steps = 0.001;  // per step, at most
 constexpr double change_between_bounds = 0.02;
 constexpr double steps_between_bounds_when_calm = 32;  // at most: its cost is then negligible
 constexpr int steps_between_bounds_at_first = 8;
-// Elements so near to what a hand holds are evaluated each time, whatever their bounds were.
+// Nodes so near to what a hand holds are evaluated each time, whatever their bounds were.
 constexpr double watched_spacings = 1;
 
 /// Whether the elements watched are those of the grasps there are.
@@ -30,17 +30,19 @@ bool watches_grasps(const Simulation<Real>& s) {
 /// Chooses the elements that hands deform.
 template <class Real>
 void watch_grasps(Simulation<Real>& s) {
-  std::vector<int> nodes;
+  const std::vector<Vec3>& rest = s.model->mesh.nodes;
+  std::vector<bool> is_near(rest.size(), false);
   s.limit.watched.clear();
   for (const auto& grasp : s.grasps) {
     s.limit.watched.push_back(grasp.id().serial);
-    const Vec3& place = s.model->mesh.nodes[static_cast<std::size_t>(grasp.center())];
+    const Vec3& place = rest[static_cast<std::size_t>(grasp.center())];
     const double radius = static_cast<double>(grasp.radius()) + watched_spacings * s.model->spacing;
-    const std::vector<int> near = s.acting_body().nodes_near(place, radius);
-    nodes.insert(nodes.end(), near.begin(), near.end());
+    for (std::size_t n = 0; n < rest.size(); ++n)
+      if ((rest[n] - place).squaredNorm() <= radius * radius) is_near[n] = true;
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < rest.size(); ++n)
+    if (is_near[n]) nodes.push_back(static_cast<int>(n));
   s.damping_bounds.watch(nodes);
   s.frequency_bounds.watch(std::move(nodes));
 }
