@@ -79,21 +79,21 @@ void ActiveTerm<Real>::stiffness(const Group& group, const Real*, std::size_t be
   }
 }
 
-/// Exact: K of an element is V Ta m mᵀ ⊗ I over its four corners, its mass ρV/4 on each.
+/// Exact: K of an element is V Ta m mᵀ ⊗ I over its four corners, its mass ρV/4 z_a on each.
 template <class Real>
-Real ActiveTerm<Real>::slot_bound(const Group& group, std::size_t s) const {
+Real ActiveTerm<Real>::slot_bound(const Group& group, std::size_t s, const CornerWeights<Real>& weights) const {
   const auto rest = rest_shape(group, s);
   const Real total = rest.fibre[0] + rest.fibre[1] + rest.fibre[2];
-  Real sum = total * total;
-  for (const Real m : rest.fibre) sum += m * m;
+  Real sum = weights.w[0] * total * total;
+  for (std::size_t a = 0; a < 3; ++a) sum += weights.w[a + 1] * rest.fibre[a] * rest.fibre[a];
   return 4 / group.density * stress_ * sum;
 }
 
 template <class Real>
-void ActiveTerm<Real>::frequency_bounds(const Group& group, const Real*, std::size_t begin, std::size_t end,
-                                        Real* bounds, bool add) const {
+void ActiveTerm<Real>::frequency_bounds(const Group& group, const Real* weights, const Real*, std::size_t begin,
+                                        std::size_t end, Real* bounds, bool add) const {
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s, ++bounds)
-    *bounds = (add ? *bounds : 0) + slot_bound(group, s);
+    *bounds = (add ? *bounds : 0) + slot_bound(group, s, weights_of_slot(group, weights, s));
 }
 
 template class ActiveTerm<float>;

@@ -25,9 +25,9 @@ class ActiveTerm final : public GroupTerm<Real> {
                                       const KinematicsDifferential<Real>&) const override {
     return {};
   }
-  Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>&,
-                            const RestShape<Real>&) const override {
-    return slot_bound(group, s);
+  Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>&, const RestShape<Real>&,
+                            const CornerWeights<Real>& weights) const override {
+    return slot_bound(group, s, weights);
   }
   double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                 const RestShape<Real>& rest) const override;
@@ -39,11 +39,11 @@ class ActiveTerm final : public GroupTerm<Real> {
               bool add) const override;
   void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
                  bool add) const override;
-  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
-                        bool add) const override;
+  void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
+                        Real* bounds, bool add) const override;
 
  private:
-  Real slot_bound(const Group& group, std::size_t s) const;
+  Real slot_bound(const Group& group, std::size_t s, const CornerWeights<Real>& weights) const;
 
   Real stress_;
 };

@@ -164,6 +164,7 @@ std::size_t ElasticBody<Real>::number_corners() {
 template <class Real>
 void ElasticBody<Real>::join_parts() {
   typename BodyLayout<Real>::Joints joints;
+  step_weights_.reset();
   joints.corner_count = number_corners();
   std::vector<const ElementGroup<Real>*> groups;
   for (const Part& part : parts_) groups.push_back(&*part.group);
@@ -270,7 +271,8 @@ void ElasticBody<Real>::make_pressure() {
 template <class Real>
 std::size_t ElasticBody<Real>::bytes() const {
   std::size_t sum = layout_->bytes() + bytes_of(corner_, of_element_, shared_force_, virtual_x_);
-  sum += bytes_of(linearisation_point_, packet_energy_, node_volume_);
+  sum += bytes_of(linearisation_point_, packet_energy_, node_volume_, due_packets_, weighted_bound_);
+  if (step_weights_) sum += step_weights_->bytes();
   for (const Part& part : parts_) {
     sum += part.group->bytes();
     sum += bytes_of(part.stiffness) + (part.flow ? part.flow->bytes() : 0);

@@ -22,6 +22,7 @@
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/point_kernels.hpp>
 #include <heml/elastic/projection.hpp>
+#include <heml/elastic/step_weights.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
@@ -78,6 +79,7 @@ struct BodySnapshot {
   double plastic_work = 0;  ///< J
   Real step = 0;            ///< s, of the last begin_step()
   double activation = 1;    ///< of the last set_activation()
+  std::shared_ptr<const StepWeights<Real>> step_weights;
   std::size_t bytes() const;
 };
 
@@ -359,9 +361,10 @@ class ElasticBody {
   std::vector<double> point_masses() const;
   template <class Bound>
   Real max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, const Bound& bound);
+  void find_step_weights(ThreadTeam& team);
+  /// Of the nodes of the elements inside; null: virtual corners.
+  const Real* corner_weights() const { return layout_->virtual_corners ? nullptr : step_weights_->node.data(); }
   void find_packets(const std::vector<int>& nodes);
-  template <class Visit>
-  void each_element_at(std::size_t node, const Visit& visit) const;
   void weigh_bounds(const ElementGroup<Real>& group, std::size_t packet, const Real* bounds);
   Real mean_bound(std::size_t node) const;
 
@@ -391,6 +394,7 @@ class ElasticBody {
   std::vector<Real> linearisation_point_;  ///< 3 a node of the layout's mesh
   bool projected_ = false;                 ///< whether project() was applied
   std::vector<double> packet_energy_;      ///< scratch of energy()
+  std::shared_ptr<const StepWeights<Real>> step_weights_;  ///< null: not asked for since elements or materials changed
   std::vector<int> due_packets_;           ///< find_packets()
   std::vector<std::pair<Real, Real>> weighted_bound_;  ///< weigh_bounds()
   std::vector<Real> node_volume_;          ///< m³, scratch of forces()

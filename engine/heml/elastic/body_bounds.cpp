@@ -5,7 +5,7 @@
 
 namespace heml {
 
-/// The maximum over the nodes of the mean of the elements' bounds, weighted by mass (node_bounds.hpp). bound(part,
+/// The maximum over the nodes of B (step_weights.hpp). bound(part,
 /// begin, end, bounds) writes those of the slots of packets, 8 a packet.
 template <class Real>
 template <class Bound>
@@ -13,7 +13,8 @@ Real ElasticBody<Real>::max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, 
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   nodes.begin(this->nodes(), steps);
   find_packets(nodes.due());
-  weighted_bound_.resize(layout_->virtual_corners ? elements() : layout_->joints.corner_count / 4);
+  weighted_bound_.resize(layout_->bounded_elements());
+  if (!step_weights_) find_step_weights(team);
   std::size_t first = 0;
   auto due = due_packets_.begin();
   for (std::size_t g = 0; g < parts_.size(); ++g) {
@@ -41,6 +42,21 @@ Real ElasticBody<Real>::max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, 
   return nodes.end();
 }
 
+template <class Real>
+void ElasticBody<Real>::find_step_weights(ThreadTeam& team) {
+  std::vector<StiffElements<Real>> stiff;
+  for (const Part& part : parts_) {
+    const Material& material = materials_[part.material];
+    if (part.terms.empty()) {
+      stiff.push_back({&*part.group, 0, 0});
+      continue;
+    }
+    const auto [shear, bulk] = small_strain_moduli(material);
+    stiff.push_back({&*part.group, shear, std::max(bulk - 2 * shear / 3, 0.0)});
+  }
+  step_weights_ = std::make_shared<const StepWeights<Real>>(heml::find_step_weights(stiff, *layout_, team));
+}
+
 /// Lists in due_packets_, ascending, the packets with an element at one of the nodes. Packets are numbered through all
 /// parts.
 template <class Real>
@@ -52,7 +68,7 @@ void ElasticBody<Real>::find_packets(const std::vector<int>& nodes) {
   if (nodes.size() < this->nodes()) {
     std::vector<bool> at_node(layout_->virtual_corners ? elements() : 0, false);
     for (const int n : nodes)
-      each_element_at(static_cast<std::size_t>(n), [&](std::size_t e) {
+      layout_->each_element_at(static_cast<std::size_t>(n), [&](std::size_t e) {
         if (layout_->virtual_corners)
           at_node[e] = true;
         else
@@ -70,59 +86,42 @@ void ElasticBody<Real>::find_packets(const std::vector<int>& nodes) {
     if (is_due[p]) due_packets_.push_back(static_cast<int>(p));
 }
 
-/// Calls visit(e) for the elements at a node in ascending order: e is the slot, counted through all parts, or the
-/// number of a quadratic element.
-template <class Real>
-template <class Visit>
-void ElasticBody<Real>::each_element_at(std::size_t node, const Visit& visit) const {
-  if (layout_->virtual_corners) {
-    for (const std::size_t place : layout_->virtual_corners->places_at(node)) visit(place / 10);
-  } else {
-    const CornerMap& map = layout_->joints.corners;
-    for (std::size_t k = map.start[node]; k < map.start[node + 1]; ++k) visit(map.corners[k] / 4);
-  }
-}
-
 /// Writes the bounds of a packet's slots times their masses, and the masses, into weighted_bound_; of a quadratic
-/// element that of its worst point times its mass.
+/// element that of its worst point.
 template <class Real>
 void ElasticBody<Real>::weigh_bounds(const ElementGroup<Real>& group, std::size_t packet, const Real* bounds) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   const std::size_t end = std::min((packet + 1) * lanes, group.size());
-  if (!layout_->virtual_corners) {
-    for (std::size_t s = packet * lanes; s < end; ++s) {
-      const Real mass = group.density * group.volume[s];
-      weighted_bound_[group.first_corner / 4 + s] = {bounds[s % lanes] * mass, mass};
-    }
-    return;
-  }
-  for (std::size_t s = packet * lanes; s < end; s += element_points) {
-    Real largest = 0, mass = 0;
-    for (std::size_t q = s; q < s + element_points; ++q) {
-      const Real bound = bounds[q % lanes];
+  const std::size_t points = points_per_element();
+  for (std::size_t s = packet * lanes; s < end; s += points) {
+    Real largest = 0, mass = 0;  // largest: of the mass of a point times its bound
+    for (std::size_t q = s; q < s + points; ++q) {
+      const Real of_point = group.density * group.volume[q], bound = bounds[q % lanes] * of_point;
       largest = bound > largest || std::isnan(bound) ? bound : largest;
-      mass += group.density * group.volume[q];
+      mass += of_point;
     }
-    weighted_bound_[element_at(group, s)] = {largest * mass, mass};
+    const std::size_t e = layout_->bounded_element(group, s);
+    const Real factor = points == 1 ? 1 : static_cast<Real>(points) * step_weights_->factor[e];
+    weighted_bound_[e] = {factor * largest, mass};
   }
 }
 
-/// Mean of the bounds of the elements at a node, whose packets have been evaluated; 0 at a node without one.
+/// B of a node whose packets have been evaluated; 0 at a node without an element.
 template <class Real>
 Real ElasticBody<Real>::mean_bound(std::size_t node) const {
   Real sum = 0, mass = 0;
-  each_element_at(node, [&](std::size_t e) {
+  layout_->each_element_at(node, [&](std::size_t e) {
     sum += weighted_bound_[e].first;
     mass += weighted_bound_[e].second;
   });
-  return mass > 0 ? sum / mass : 0;
+  return mass > 0 ? sum / (mass * step_weights_->node[node]) : 0;
 }
 
 template <class Real>
 typename ElasticBody<Real>::Contribution ElasticBody<Real>::largest_contribution(std::size_t node) const {
   Real most = 0, sum = 0;
   std::size_t largest = 0;
-  each_element_at(node, [&](std::size_t e) {
+  layout_->each_element_at(node, [&](std::size_t e) {
     const Real own = weighted_bound_[e].first;
     sum += own;
     if (own > most) most = own, largest = e;
@@ -155,10 +154,13 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team, NodeBou
   if (pressure_) pressure_->begin_bounds(x, team);
   Real bound = max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
     const Part& part = parts_[g];
+    const Real* weights = corner_weights();
     std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
-    for (const auto& term : part.terms) term->frequency_bounds(*part.group, x, begin, end, bounds, true);
-    if (pressure_) pressure_->add_frequency_bounds(g, x, begin, end, bounds);
-    if (part.dilatation) part.dilatation->add_frequency_bounds(*part.group, x, begin, end, bounds);
+    for (const auto& term : part.terms) term->frequency_bounds(*part.group, weights, x, begin, end, bounds, true);
+    if (pressure_) pressure_->add_frequency_bounds(g, weights, x, begin, end, bounds);
+    if (part.dilatation)
+      part.dilatation->add_frequency_bounds(*part.group, *layout_->virtual_corners, *step_weights_, x, begin, end,
+                                            bounds);
   });
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   bound += fans_.state_bound(fan_slots());
@@ -172,7 +174,8 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team, NodeBound
   x = inner_positions(x, team);
   return max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
     std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
-    for (const auto& term : parts_[g].terms) term->damping_bounds(*parts_[g].group, x, begin, end, bounds, true);
+    for (const auto& term : parts_[g].terms)
+      term->damping_bounds(*parts_[g].group, corner_weights(), x, begin, end, bounds, true);
   });
 }
 

@@ -54,7 +54,6 @@ void append(const ElementGroup<Real>& more, ElementGroup<Real>& group) {
   for (std::size_t i = 0; i < group.node.size(); ++i) add(group.node[i], more.node[i]);
   for (std::size_t i = 0; i < group.A.size(); ++i) add(group.A[i], more.A[i]);
   add(group.volume, more.volume);
-  add(group.gamma, more.gamma);
   for (std::size_t i = 0; i < group.fibre.size(); ++i) add(group.fibre[i], more.fibre[i]);
   for (std::size_t i = 0; i < group.parameters.size(); ++i) add(group.parameters[i], more.parameters[i]);
 }
@@ -112,6 +111,7 @@ void ElasticBody<Real>::set_material_of(const std::vector<Material>& materials, 
     if (!gains && old != old_parts.end() && materials_[part.material].has_internal_state())
       transfer_slot_states(*old, layout_->mesh, same, {}, part);
   }
+  step_weights_.reset();
   make_pressure();
   make_fans();
 }

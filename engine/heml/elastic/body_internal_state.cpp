@@ -125,7 +125,7 @@ void ElasticBody<Real>::set_internal_state(const InternalState<Real>& state) {
 template <class Real>
 BodySnapshot<Real> ElasticBody<Real>::snapshot() {
   update_slots();
-  BodySnapshot<Real> snapshot{layout_, {}, materials_, fans_, plastic_work_, step_, activation_};
+  BodySnapshot<Real> snapshot{layout_, {}, materials_, fans_, plastic_work_, step_, activation_, step_weights_};
   snapshot.fans.drop_scratch();
   for (Part& part : parts_) {
     snapshot.parts.push_back({part.material, part.group_at_rest(), {}});
@@ -159,6 +159,7 @@ void ElasticBody<Real>::restore(const BodySnapshot<Real>& snapshot, const Real* 
     number_corners();
     make_pressure();
     fans_ = snapshot.fans;
+    step_weights_ = snapshot.step_weights;
   } else {
     join_parts();
     make_fans();
@@ -173,7 +174,7 @@ void ElasticBody<Real>::restore_all(const BodySnapshot<Real>& snapshot, const Re
 
 template <class Real>
 std::size_t BodySnapshot<Real>::bytes() const {
-  std::size_t sum = fans.bytes() + layout->bytes();
+  std::size_t sum = fans.bytes() + layout->bytes() + (step_weights ? step_weights->bytes() : 0);
   for (const Part& part : parts) sum += part.group->bytes() + bytes_of(part.values);
   return sum;
 }

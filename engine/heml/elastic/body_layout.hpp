@@ -26,6 +26,23 @@ struct BodyLayout {
     bool operator==(const Joints&) const = default;
   } joints;  ///< of the present materials; a change of materials alone often leaves them as they are
 
+  // Elements as bounds of the stable step count them: slots through all parts, or quadratic elements by number.
+  std::size_t bounded_elements() const { return virtual_corners ? elements() : joints.corner_count / 4; }
+  std::size_t bounded_element(const ElementGroup<Real>& group, std::size_t slot) const {
+    return virtual_corners ? element_at(group, slot) : group.first_corner / 4 + slot;
+  }
+  /// Calls visit() for those at a node in ascending order.
+  template <class Visit>
+  void each_element_at(std::size_t node, const Visit& visit) const {
+    if (virtual_corners) {
+      for (const std::size_t place : virtual_corners->places_at(node)) visit(place / 10);
+    } else {
+      const CornerMap& map = joints.corners;
+      for (std::size_t k = map.start[node]; k < map.start[node + 1]; ++k) visit(map.corners[k] / 4);
+    }
+  }
+
+  std::size_t elements() const { return virtual_corners ? virtual_corners->elements() : mesh.tets.size(); }
   std::size_t nodes() const { return virtual_corners ? virtual_corners->nodes() : mesh.nodes.size(); }
   std::size_t bytes() const {
     std::size_t sum = bytes_of(mesh.nodes, mesh.tets, mesh.regions, mesh.burns, material_of) + joints.springs.bytes() +

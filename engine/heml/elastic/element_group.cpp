@@ -24,7 +24,6 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
   for (auto& list : group.node) list.resize(padded);
   for (auto& list : group.A) list.resize(padded);
   group.volume.resize(padded);
-  group.gamma.resize(padded);
   const bool has_fibre = find_law(material.law)->has_fibre || material.gives_fibre();
   if (has_fibre)
     for (auto& list : group.fibre) list.resize(padded);
@@ -55,10 +54,6 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
     for (std::size_t k = 0; k < material.fields.size(); ++k)
       group.parameters[k][s] = static_cast<Real>(field_values(mesh, material.fields[k].field, 1)[element]);
     group.volume[s] = static_cast<Real>(scale * scale * scale * signed_volume(X[0], X[1], X[2], X[3]));
-    const Vec3 g0 = -g.colwise().sum().transpose();
-    const Mat3 sum = g.transpose() * g + g0 * g0.transpose();
-    group.gamma[s] =
-        static_cast<Real>(Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]);
   }
   return group;
 }
@@ -69,7 +64,6 @@ void scale_rest_shape(ElementGroup<Real>& group, std::size_t s, Real factor) {
   if (!group.fibre[0].empty())
     for (auto& list : group.fibre) list[s] /= factor;
   group.volume[s] *= factor * factor * factor;
-  group.gamma[s] /= factor * factor;
 }
 
 template <class Real>
@@ -80,7 +74,6 @@ std::vector<std::size_t> keep_slots(ElementGroup<Real>& group, const std::vector
   for (auto& list : group.node) gather_slots(list, from);
   for (auto& list : group.A) gather_slots(list, from);
   gather_slots(group.volume, from);
-  gather_slots(group.gamma, from);
   if (!group.fibre[0].empty())
     for (auto& list : group.fibre) gather_slots(list, from);
   for (auto& list : group.parameters) gather_slots(list, from);

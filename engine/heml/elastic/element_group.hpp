@@ -27,7 +27,6 @@ struct ElementGroup {
   std::array<std::vector<int>, 4> node;  ///< 4 × padded #S, inner numbers
   std::array<std::vector<Real>, 6> A;    ///< 6 × padded #S, 1/m²
   std::vector<Real> volume;              ///< padded #S, m³, of the rest shape
-  std::vector<Real> gamma;  ///< padded #S, 1/m²: largest eigenvalue of Σ_a g_a g_aᵀ, for the stable step
   std::array<std::vector<Real>, 3> fibre;     ///< 3 × padded #S, 1/m, or empty
   std::vector<std::vector<Real>> parameters;  ///< of each FieldParameter of the material, padded #S
   Real density = 1000;                        ///< kg/m³
@@ -35,7 +34,7 @@ struct ElementGroup {
 
   std::size_t size() const { return element.size(); }
   std::size_t packets() const { return volume.size() / lanes; }
-  std::size_t bytes() const { return bytes_of(element, node, A, volume, gamma, fibre, parameters); }
+  std::size_t bytes() const { return bytes_of(element, node, A, volume, fibre, parameters); }
 };
 
 /// Builds the group of the given elements (inner numbers; at least one) of a mesh in inner order with positive volumes.

@@ -29,13 +29,14 @@ struct EvaluatedEnergy {
 template <bool with_fibre, class Real>
 [[gnu::always_inline]] inline Real evaluated_bound(const EvaluatedEnergy<Real>& law,
                                                    const ElementKinematics<Real>& kinematics,
-                                                   const RestShape<Real>& rest, Real gamma, Real density) {
-  Real bound = element_frequency_bound(law, kinematics, rest, gamma, density);
+                                                   const RestShape<Real>& rest, const CornerWeights<Real>& weights,
+                                                   Real density) {
+  Real bound = element_frequency_bound(law, kinematics, rest, weights, density);
   if constexpr (with_fibre) {
     const auto& s = law.second;
     const auto positive = [](Real value) { return std::max(value, Real(0)); };
-    const CornerSums<Real> sums = corner_sums(kinematics, rest);
-    const auto N = gradient_products<EvaluatedEnergy<Real>>(kinematics, rest, sums);
+    const CornerSums<Real> sums = corner_sums(kinematics, rest, weights);
+    const auto N = gradient_products<EvaluatedEnergy<Real>>(kinematics, rest, sums, weights);
     const Real n44 = 4 * kinematics.at.I4 * sums.m;
     bound += 4 / density *
              (2 * positive(law.first.w4) * sums.m + positive(s.w44) * n44 +
@@ -47,13 +48,14 @@ template <bool with_fibre, class Real>
 
 /// group_frequency_bounds() of a law of invariants: its derivatives on packs, then one element a lane.
 template <class Real, class L>
-HEML_WIDE void energy_group_bounds(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                                   std::size_t end, Real* bounds, bool add) {
+HEML_WIDE void energy_group_bounds(const L& law, const ElementGroup<Real>& group, const Real* weights, const Real* x,
+                                   std::size_t begin, std::size_t end, Real* bounds, bool add) {
   using P = EnergyPack<Real>;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
   const auto many = law.template broadcast<P>();
   for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
+    const PacketWeights<Real> of_corners(group, weights, p);
     Real d[14][lanes], bound[lanes];
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
@@ -70,9 +72,8 @@ HEML_WIDE void energy_group_bounds(const L& law, const ElementGroup<Real>& group
       const EvaluatedEnergy<Real> evaluated{
           {d[0][l], d[1][l], d[2][l], d[3][l]},
           {d[4][l], d[5][l], d[6][l], d[7][l], d[8][l], d[9][l], d[10][l], d[11][l], d[12][l], d[13][l]}};
-      bound[l] = evaluated_bound<L::uses_I4>(
-          evaluated, law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest), rest,
-          group.gamma[p * lanes + l], group.density);
+      bound[l] = evaluated_bound<L::uses_I4>(evaluated, law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest),
+                                             rest, of_corners.at(l), group.density);
     }
     for (std::size_t l = 0; l < lanes; ++l) bounds[l] = (add ? bounds[l] : 0) + bound[l];
   }
@@ -140,14 +141,14 @@ class EnergyTerm final : public GroupTerm<Real> {
     return heml::tension_differential(law_, kinematics, rest, change);
   }
 
-  Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
-                            const RestShape<Real>& rest) const override {
+  Real slot_frequency_bound(const Group& group, std::size_t, const ElementKinematics<Real>& kinematics,
+                            const RestShape<Real>& rest, const CornerWeights<Real>& weights) const override {
     if constexpr (requires { L::is_of_stretches; }) {
-      return element_frequency_bound(law_, kinematics, rest, group.gamma[s], group.density);
+      return element_frequency_bound(law_, kinematics, rest, weights, group.density);
     } else {
       const EvaluatedEnergy<Real> evaluated{law_.first_derivatives(kinematics.at),
                                             law_.second_derivatives(kinematics.at)};
-      return evaluated_bound<L::uses_I4>(evaluated, kinematics, rest, group.gamma[s], group.density);
+      return evaluated_bound<L::uses_I4>(evaluated, kinematics, rest, weights, group.density);
     }
   }
 
@@ -182,11 +183,11 @@ class EnergyTerm final : public GroupTerm<Real> {
     GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
   }
 
-  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
-                        bool add) const override {
+  void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
+                        Real* bounds, bool add) const override {
     if constexpr (!requires { L::is_of_stretches; })
-      if (has_avx2()) return energy_group_bounds<Real>(law_, group, x, begin, end, bounds, add);
-    GroupTerm<Real>::frequency_bounds(group, x, begin, end, bounds, add);
+      if (has_avx2()) return energy_group_bounds<Real>(law_, group, weights, x, begin, end, bounds, add);
+    GroupTerm<Real>::frequency_bounds(group, weights, x, begin, end, bounds, add);
   }
 
  private:

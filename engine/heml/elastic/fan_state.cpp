@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cmath>
 #include <heml/elastic/fan_state.hpp>
+#include <heml/elastic/group_loops.hpp>
 #include <heml/math/bytes.hpp>
 #include <heml/math/symmetric3.hpp>
 
@@ -230,8 +231,9 @@ Real FanState<Real>::bound(const FanLayout<Real>& layout, std::size_t lanes, con
         for (std::size_t l = 0; l < lanes; ++l) square[l] = square_of_fixed(of_part, shape + l, state + l, lanes);
         for (std::size_t l = 0; l < lanes; ++l) {
           if (place[l].slot < 0) continue;
-          const Real value = std::sqrt(square[l]) * group.gamma[static_cast<std::size_t>(place[l].slot)];
-          const Real bound = 24 / group.density * value;
+          const auto rest = rest_shape(group, static_cast<std::size_t>(place[l].slot));
+          const Real gamma = max_gradient(rest.A, CornerWeights<Real>{});
+          const Real bound = 24 / group.density * std::sqrt(square[l]) * gamma;
           largest = bound > largest || std::isnan(bound) ? bound : largest;
         }
         shape += of_part.constants * lanes, state += of_part.state * lanes, place += lanes;

@@ -32,7 +32,8 @@ class FanState {
   void write(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
              const std::vector<FanSlots<Real>>& slots) const;
 
-  /// Largest 4/ρ |S| γ, 1/s², with S the stress that is fixed during the step (ViscoelasticTerm::state_bound()).
+  /// Largest 4/ρ |S| γ, 1/s² (step_bound.hpp), with S the stress that is fixed during the step
+  /// (ViscoelasticTerm::state_bound()).
   Real bound(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
              const std::vector<FanSlots<Real>>& slots) const;
 

@@ -240,20 +240,44 @@ template <class P, class L>
   }
 }
 
+/// w_a of the corners of a packet's elements (step_bound.hpp). weights: of the nodes; null: 1.
+template <class Real>
+struct PacketWeights {
+  static constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  Real w[4][lanes];
+
+  [[gnu::always_inline]] PacketWeights(const ElementGroup<Real>& group, const Real* weights, std::size_t packet) {
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t l = 0; l < lanes; ++l) w[a][l] = weights ? weights[group.node[a][packet * lanes + l]] : Real(1);
+  }
+  [[gnu::always_inline]] CornerWeights<Real> at(std::size_t lane) const {
+    return {{w[0][lane], w[1][lane], w[2][lane], w[3][lane]}};
+  }
+};
+template <class Real>
+CornerWeights<Real> weights_of_slot(const ElementGroup<Real>& group, const Real* weights, std::size_t s) {
+  CornerWeights<Real> of_corners;
+  if (weights)
+    for (std::size_t a = 0; a < 4; ++a) of_corners.w[a] = weights[group.node[a][s]];
+  return of_corners;
+}
+
 /// Writes element_frequency_bound() of packets [begin, end), 1/s², into bounds (8 a packet), or adds it.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline void group_frequency_bounds(const L& law, const ElementGroup<Real>& group, const Real* x,
-                                                          std::size_t begin, std::size_t end, Real* bounds, bool add) {
+[[gnu::always_inline]] inline void group_frequency_bounds(const L& law, const ElementGroup<Real>& group,
+                                                          const Real* weights, const Real* x, std::size_t begin,
+                                                          std::size_t end, Real* bounds, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
+    const PacketWeights<Real> of_corners(group, weights, p);
     Real bound[lanes];
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
       const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
-      bound[l] = element_frequency_bound(law, kinematics, rest, group.gamma[p * lanes + l], group.density);
+      bound[l] = element_frequency_bound(law, kinematics, rest, of_corners.at(l), group.density);
     }
     for (std::size_t l = 0; l < lanes; ++l) bounds[l] = (add ? bounds[l] : 0) + bound[l];
   }

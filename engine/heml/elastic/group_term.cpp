@@ -85,11 +85,12 @@ void GroupTerm<Real>::mises_bounds(const Group&, const Real*, std::size_t begin,
 }
 
 template <class Real>
-void GroupTerm<Real>::frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
-                                       Real* bounds, bool add) const {
+void GroupTerm<Real>::frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin,
+                                       std::size_t end, Real* bounds, bool add) const {
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s, ++bounds) {
     const auto rest = rest_shape(group, s);
-    *bounds = (add ? *bounds : 0) + slot_frequency_bound(group, s, full_kinematics(group, x, s, rest), rest);
+    *bounds = (add ? *bounds : 0) + slot_frequency_bound(group, s, full_kinematics(group, x, s, rest), rest,
+                                                         weights_of_slot(group, weights, s));
   }
 }
 

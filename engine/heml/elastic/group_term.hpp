@@ -37,9 +37,9 @@ class GroupTerm {
   virtual Tensions<Real> tension_differential(const Group& group, std::size_t s,
                                               const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
                                               const KinematicsDifferential<Real>& change) const = 0;
-  /// Upper bound of λ_max(M_t⁻¹K_t), 1/s².
+  /// Upper bound of λ_max(M_t⁻¹K_t), 1/s² (step_bound.hpp).
   virtual Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
-                                    const RestShape<Real>& rest) const = 0;
+                                    const RestShape<Real>& rest, const CornerWeights<Real>& weights) const = 0;
   /// V W, J.
   virtual double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                         const RestShape<Real>& rest) const = 0;
@@ -59,9 +59,9 @@ class GroupTerm {
   /// Sums of energy() over each packet into of_packet (#packets), overwritten or added to.
   virtual void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
                         bool add) const;
-  /// Writes slot_frequency_bound() of the slots into bounds (8 a packet), or adds it.
-  virtual void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
-                                bool add) const;
+  /// Writes slot_frequency_bound() of the slots into bounds (8 a packet), or adds it. weights: w of the nodes; null: 1.
+  virtual void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin,
+                                std::size_t end, Real* bounds, bool add) const;
   /// Writes tensions() of the slots into of_packets: [packet][T, wJ][lanes], 7 lists a packet.
   virtual void packet_tensions(const Group& group, const Real* x, std::size_t begin, std::size_t end,
                                Real* of_packets) const;
@@ -70,7 +70,7 @@ class GroupTerm {
   virtual void mises_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
   /// Writes upper bounds of λ_max(M_t⁻¹D_t), 1/s, of the slots into bounds (8 a packet), or adds them; D: the damping
   /// matrix of the term.
-  virtual void damping_bounds(const Group&, const Real*, std::size_t begin, std::size_t end, Real* bounds,
+  virtual void damping_bounds(const Group&, const Real*, const Real*, std::size_t begin, std::size_t end, Real* bounds,
                               bool add) const {
     if (!add) std::fill_n(bounds, (end - begin) * Group::lanes, Real(0));
   }

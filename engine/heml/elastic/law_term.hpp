@@ -38,9 +38,9 @@ HEML_WIDE void wide_mises_bounds(const LawSource<Real, L>& law, const ElementGro
   group_mises_bounds<WidePack<Real>, L>({law, group}, group, x, begin, end, bounds);
 }
 template <class Real, class L>
-HEML_WIDE void wide_frequency_bounds(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                                     std::size_t end, Real* bounds, bool add) {
-  group_frequency_bounds<Real>(law, group, x, begin, end, bounds, add);
+HEML_WIDE void wide_frequency_bounds(const L& law, const ElementGroup<Real>& group, const Real* weights, const Real* x,
+                                     std::size_t begin, std::size_t end, Real* bounds, bool add) {
+  group_frequency_bounds<Real>(law, group, weights, x, begin, end, bounds, add);
 }
 
 template <class Real, Law<Real> L>
@@ -61,8 +61,8 @@ class LawTerm final : public GroupTerm<Real> {
   }
 
   Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
-                            const RestShape<Real>& rest) const override {
-    return element_frequency_bound(source_.at(group, s), kinematics, rest, group.gamma[s], group.density);
+                            const RestShape<Real>& rest, const CornerWeights<Real>& weights) const override {
+    return element_frequency_bound(source_.at(group, s), kinematics, rest, weights, group.density);
   }
 
   double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
@@ -116,10 +116,11 @@ class LawTerm final : public GroupTerm<Real> {
     GroupTerm<Real>::mises_bounds(group, x, begin, end, bounds);
   }
 
-  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
-                        bool add) const override {
-    if (!source_.uniform() || !has_avx2()) return GroupTerm<Real>::frequency_bounds(group, x, begin, end, bounds, add);
-    wide_frequency_bounds<Real>(source_.uniform_law(), group, x, begin, end, bounds, add);
+  void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
+                        Real* bounds, bool add) const override {
+    if (!source_.uniform() || !has_avx2())
+      return GroupTerm<Real>::frequency_bounds(group, weights, x, begin, end, bounds, add);
+    wide_frequency_bounds<Real>(source_.uniform_law(), group, weights, x, begin, end, bounds, add);
   }
 
  private:

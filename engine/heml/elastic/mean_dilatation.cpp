@@ -203,23 +203,32 @@ void MeanDilatation<Real>::add_stiffness(const Group& group, const Real* x, bool
     for (std::size_t c = 0; c < 30; ++c) K[r][c] += factor * g[r] * g[c];
 }
 
-/// κ̄ψ''/V g·M⁻¹g of an element, exact for its part of the stiffness, and |d²J| ≤ 2 σ1 |dF|² at the worst point.
+/// κ̄ψ''/V g·Z⁻¹M⁻¹g of an element, exact for its part of the stiffness, and |d²J| ≤ 2 σ1 |dF|² at the worst point.
 template <class Real>
-void MeanDilatation<Real>::add_frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
-                                                Real* bounds) const {
+void MeanDilatation<Real>::add_frequency_bounds(const Group& group, const VirtualCorners<Real>& corners,
+                                                const StepWeights<Real>& weights, const Real* x, std::size_t begin,
+                                                std::size_t end, Real* bounds) const {
   for (std::size_t s = begin * Group::lanes; s < std::min(end * Group::lanes, group.size()); s += element_points) {
     const Value at = value(group, x, s);
-    Real g[30], corners = 0, middles = 0, mass = 0, geometric = 0;
+    const std::size_t e = element_at(group, s);
+    const QuadraticNodes& nodes = corners.nodes_of(e);
+    Real g[30], square = 0, mass = 0, least = std::numeric_limits<Real>::infinity();
     element_volume_gradient(group, x, s, g);
-    for (std::size_t i = 0; i < 30; ++i) (i < 12 ? corners : middles) += g[i] * g[i];
+    for (std::size_t i = 0; i < 30; ++i)
+      square += g[i] * g[i] * weights.node[static_cast<std::size_t>(nodes[i / 3])] * Real(i < 12 ? 36 : 27.0 / 4);
+    for (std::size_t q = s; q < s + element_points; ++q) {
+      mass += group.density * static_cast<Real>(frequency_ratio) * group.volume[q];
+      least = std::min(least, group.volume[q]);
+    }
+    // The bound of a point counts as much as its volume.
+    const Real share = mass / (4 * group.density * static_cast<Real>(frequency_ratio) * least);
+    const Real exact = std::max(at.stiffness, Real(0)) * square / (mass * weights.factor[e]) * share;
     for (std::size_t q = s; q < s + element_points; ++q) {
       const auto rest = rest_shape(group, q);
       const Real stretch = std::sqrt(stretch_bounds(full_kinematics(group, x, q, rest).at).max);
-      geometric = std::max(geometric, 8 / group.density * std::abs(at.pressure) * stretch * group.gamma[q]);
-      mass += group.density * static_cast<Real>(frequency_ratio) * group.volume[q];
+      const Real gamma = max_gradient(rest.A, CornerWeights<Real>{});
+      bounds[q - begin * Group::lanes] += 8 / group.density * std::abs(at.pressure) * stretch * gamma + exact;
     }
-    const Real bound = std::max(at.stiffness, Real(0)) * (corners * 36 + middles * Real(27.0 / 4)) / mass + geometric;
-    for (std::size_t q = s; q < s + element_points; ++q) bounds[q - begin * Group::lanes] += bound;
   }
 }
 

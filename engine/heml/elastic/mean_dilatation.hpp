@@ -9,6 +9,7 @@
 // which bend without shear, are of that kind: a beam of one element across would be 50 % too soft.
 #include <heml/base/shared.hpp>
 #include <heml/elastic/group_loops.hpp>
+#include <heml/elastic/step_weights.hpp>
 #include <heml/math/bytes.hpp>
 #include <vector>
 
@@ -42,8 +43,10 @@ class MeanDilatation {
   bool add_forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner) const;
   /// Adds the energies (J) of each packet.
   void add_energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet) const;
-  /// Adds upper bounds of λ_max(M⁻¹K), 1/s², of the elements to those of their slots (8 a packet).
-  void add_frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
+  /// Adds upper bounds of λ_max(M⁻¹K), 1/s², of the elements to those of their slots (8 a packet), over the factors of
+  /// the elements (StepWeights).
+  void add_frequency_bounds(const Group& group, const VirtualCorners<Real>& corners, const StepWeights<Real>& weights,
+                            const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
 
   /// To be called before linearise().
   void resize(const Group& group) { linear_.resize(group.volume.size() / 4); }

@@ -59,11 +59,13 @@ HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real*
 }
 /// Adds to bounds (8 a packet), with the largest stiffness κ ψ'' and the mean pressure of four nodes.
 template <class Real>
-[[gnu::always_inline]] inline void add_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
-                                              const Real* pressure, std::size_t begin, std::size_t end, Real* bounds) {
+[[gnu::always_inline]] inline void add_bounds(const ElementGroup<Real>& group, const Real* weights, const Real* x,
+                                              const Real* stiffness, const Real* pressure, std::size_t begin,
+                                              std::size_t end, Real* bounds) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, false> packet(group, x, p * lanes);
+    const PacketWeights<Real> of_corners(group, weights, p);
     Real kappa[lanes] = {}, mean[lanes] = {}, bound[lanes];
     for (const auto& list : group.node)
       for (std::size_t l = 0; l < lanes; ++l) {
@@ -75,19 +77,20 @@ template <class Real>
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
       const auto kinematics = element_kinematics<true, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
-      bound[l] =
-          4 / group.density *
-          (kappa[l] * corner_sums(kinematics, rest).nJ +
-           2 * std::abs(mean[l] / 4) * std::sqrt(stretch_bounds(kinematics.at).max) * group.gamma[p * lanes + l]);
+      bound[l] = 4 / group.density *
+                 (kappa[l] * corner_sums(kinematics, rest, of_corners.at(l)).nJ +
+                  2 * std::abs(mean[l] / 4) * std::sqrt(stretch_bounds(kinematics.at).max) *
+                      max_gradient(rest.A, of_corners.at(l)));
     }
     for (std::size_t l = 0; l < lanes; ++l) bounds[l] += bound[l];
   }
 }
 
 template <class Real>
-HEML_WIDE void add_wide_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
-                               const Real* pressure, std::size_t begin, std::size_t end, Real* bounds) {
-  add_bounds(group, x, stiffness, pressure, begin, end, bounds);
+HEML_WIDE void add_wide_bounds(const ElementGroup<Real>& group, const Real* weights, const Real* x,
+                               const Real* stiffness, const Real* pressure, std::size_t begin, std::size_t end,
+                               Real* bounds) {
+  add_bounds(group, weights, x, stiffness, pressure, begin, end, bounds);
 }
 }  // namespace
 
@@ -279,11 +282,11 @@ void NodalPressure<Real>::begin_bounds(const Real* x, ThreadTeam& team) {
 }
 
 template <class Real>
-void NodalPressure<Real>::add_frequency_bounds(std::size_t g, const Real* x, std::size_t begin, std::size_t end,
-                                               Real* bounds) const {
+void NodalPressure<Real>::add_frequency_bounds(std::size_t g, const Real* weights, const Real* x, std::size_t begin,
+                                               std::size_t end, Real* bounds) const {
   const Real *stiffness = stiffness_.data(), *pressure = last_.pressure.data();
-  if (has_avx2()) return add_wide_bounds(*groups_[g], x, stiffness, pressure, begin, end, bounds);
-  add_bounds(*groups_[g], x, stiffness, pressure, begin, end, bounds);
+  if (has_avx2()) return add_wide_bounds(*groups_[g], weights, x, stiffness, pressure, begin, end, bounds);
+  add_bounds(*groups_[g], weights, x, stiffness, pressure, begin, end, bounds);
 }
 
 template <class Real>

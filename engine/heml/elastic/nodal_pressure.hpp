@@ -43,8 +43,9 @@ class NodalPressure {
   /// Evaluates volume ratios and pressures at x for add_frequency_bounds(), valid until the next evaluation.
   void begin_bounds(const Real* x, ThreadTeam& team);
   /// Adds to bounds (8 a packet) for packets [begin, end) of a group how far these terms raise those of its elements,
-  /// 1/s²: K ≤ Σ b_t M_t. Threads: any, on disjoint ranges.
-  void add_frequency_bounds(std::size_t group, const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
+  /// 1/s²: K ≤ Σ b_t M_t. weights: as GroupTerm::frequency_bounds(). Threads: any, on disjoint ranges.
+  void add_frequency_bounds(std::size_t group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
+                            Real* bounds) const;
   std::size_t bytes() const {
     return bytes_of(kappa_, node_volume_, node_kappa_, last_.ratio, last_.pressure, linear_.ratio, linear_.pressure,
                     of_corner_, stiffness_);

@@ -18,31 +18,40 @@ void NodeBounds<Real>::begin(std::size_t nodes, int steps) {
     bound_.resize(nodes);
     seen_.resize(nodes);
     age_.assign(nodes, 0);
+    growth_.assign(nodes / neighbourhood + 1, 0);
     due_.resize(nodes);
     std::iota(due_.begin(), due_.end(), 0);
     return;
   }
   due_.clear();
-  // What grew before may grow still where nobody looked: it counts until all have been looked at.
-  growth_ *= std::max(Real(0), 1 - static_cast<Real>(steps) / max_age);
+  const Real fades = std::max(Real(0), 1 - static_cast<Real>(steps) / max_age);
+  Real fastest = 0;
+  for (Real& growth : growth_) {
+    // What grew before may grow still where nobody looked: it counts until all have been looked at.
+    growth *= fades;
+    fastest = std::max(fastest, growth);
+  }
   std::size_t next_watched = 0;
   for (std::size_t n = 0; n < nodes; ++n) {
     const int age = std::min(age_[n] + steps, max_age);
     age_[n] = static_cast<std::uint8_t>(age);
     const bool is_watched = next_watched < watched_.size() && watched_[next_watched] == static_cast<int>(n);
     if (is_watched) ++next_watched;
-    const bool may_be_largest = !(2 * static_cast<Real>(age) * growth_ < largest_ - bound_[n]);
+    const Real growth = std::max(growth_[n / neighbourhood], fastest * static_cast<Real>(elsewhere));
+    const Real room = bound_[n] == largest_ ? 0 : largest_ * (1 + static_cast<Real>(tolerance)) - bound_[n];
+    const bool may_be_largest = !(2 * static_cast<Real>(age) * growth < room);
     if (known_ == Known::bounds || is_watched || age == max_age || may_be_largest) due_.push_back(static_cast<int>(n));
   }
 }
 
 template <class Real>
 Real NodeBounds<Real>::end() {
-  if (due_.size() == bound_.size()) growth_ = 0;  // all are known anew
+  if (due_.size() == bound_.size()) std::fill(growth_.begin(), growth_.end(), Real(0));  // all are known anew
   for (const int n : due_) {
     const auto k = static_cast<std::size_t>(n);
+    Real& growth = growth_[k / neighbourhood];
     if (known_ != Known::nothing)
-      growth_ = std::max(growth_, (seen_[k] - bound_[k]) / static_cast<Real>(std::max<int>(age_[k], 1)));
+      growth = std::max(growth, (seen_[k] - bound_[k]) / static_cast<Real>(std::max<int>(age_[k], 1)));
     bound_[k] = seen_[k];
     age_[k] = 0;
   }
@@ -60,7 +69,7 @@ std::size_t NodeBounds<Real>::largest_node() const {
 
 template <class Real>
 std::size_t NodeBounds<Real>::bytes() const {
-  return bytes_of(bound_, seen_, age_, watched_, due_);
+  return bytes_of(bound_, seen_, growth_, age_, watched_, due_);
 }
 
 template class NodeBounds<float>;

@@ -1,20 +1,17 @@
 #pragma once
-// Bounds of the eigenvalues of M⁻¹K from those of elements, a node each, evaluated step after step.
-//
-// With K_e ≤ b_e M_e of every element e (step_bound.hpp), K ≤ Σ b_e M_e, which is diagonal: at node a
-//
-//     B_a = Σ_e b_e m_ea / Σ_e m_ea  over the elements e at a,  m_ea the mass of e that is lumped there,
-//
-// the mean of what is round it, weighted by mass. So λ_max(M⁻¹K) ≤ max_a B_a ≤ max_e b_e: a small element among large
-// ones counts as much as its mass does.
+// Bounds B_a of the eigenvalues of M⁻¹K or M⁻¹D, one a node (step_weights.hpp), evaluated step after step; the largest
+// holds for the body.
 //
 //   bound:   | 0.3 | 1.0 | 0.9 | 0.4 | ... B_a of each node
 //   age:     |  14 |   2 |   6 |  30 | ... steps since it was evaluated
+//   growth:  |        0.02     |       ... a step, one a neighbourhood
 //
 // A node whose bound was far below the maximum cannot have reached it since: only those that may have are evaluated
 // again, with all elements round them. A node is due
-// - where 2 · age · growth ≥ largest − bound, growth the fastest that any bound was seen to grow, a step: so always the
-//   largest;
+// - where it has the largest, or may be larger by more than the tolerance: 2 · age · growth ≥ 1.02 largest − bound.
+// growth:
+//   the fastest that a bound was seen to grow, a step, among the neighbours in inner order, or a quarter of the fastest
+//   elsewhere, from where waves take some steps;
 // - at max_age;
 // - where it is watched: something acts on its elements, whose bounds may grow without notice.
 #include <cstddef>
@@ -27,7 +24,10 @@ namespace heml {
 template <class Real>
 class NodeBounds {
  public:
-  static constexpr int max_age = 32;  ///< steps
+  static constexpr int max_age = 32;                ///< steps
+  static constexpr double tolerance = 0.02;         ///< of the maximum: nodes that exceed it by less may be missed
+  static constexpr std::size_t neighbourhood = 32;  ///< nodes
+  static constexpr double elsewhere = 0.25;
 
   /// All nodes are due the next two times: a growth is known from two evaluations.
   void forget();
@@ -50,9 +50,10 @@ class NodeBounds {
 
  private:
   std::vector<Real> bound_, seen_;  ///< of the evaluation before, and of this one
+  std::vector<Real> growth_;        ///< a step, of each neighbourhood
   std::vector<std::uint8_t> age_;
   std::vector<int> watched_, due_;
-  Real largest_ = 0, growth_ = 0;                                                   ///< growth: a step
+  Real largest_ = 0;
   enum class Known { nothing, bounds, bounds_and_growth } known_ = Known::nothing;  ///< bounds alone: all are due
 };
 

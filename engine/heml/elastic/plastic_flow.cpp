@@ -12,16 +12,9 @@ namespace {
 constexpr double min_J = 0.05;                    // no flow below this J, where the logarithmic strain is meaningless
 constexpr double surely_below = 0.999;  // of the yield stress: bounds of the stress are less exact than stresses
 
-/// Stores A and gamma, the largest eigenvalue of Σ_a g_a g_aᵀ, similar to Lᵀ(I + 1 1ᵀ)L with A = LLᵀ.
 template <class Real>
 void put_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real A[6]) {
-  Real L[3][3], sum[6];
   for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = A[i];
-  cholesky3(A, L);
-  const Real ones[6] = {2, 2, 2, 1, 1, 1};
-  into_rest_frame(L, ones, sum);
-  const auto spread = symmetric_eigen3(sum);
-  group.gamma[s] = std::max({spread.value[0], spread.value[1], spread.value[2]});
 }
 
 /// Adds the change of stiffness that comes with flow (return_mapping.hpp) in terms of ε_i and of the turning of the
@@ -68,7 +61,6 @@ PlasticFlow<Real>::PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plast
       yield_(static_cast<Real>(plasticity.yield)),
       hardening_(static_cast<Real>(plasticity.hardening)),
       rest_A_(group.A),
-      rest_gamma_(group.gamma),
       strain_(group.volume.size(), 0) {}
 
 template <class Real>
@@ -149,7 +141,6 @@ void PlasticFlow<Real>::add_stiffness(const Group& group, const Real* x, std::si
 template <class Real>
 ElementGroup<Real> PlasticFlow<Real>::at_rest(Group group) const {
   group.A = rest_A_;
-  group.gamma = rest_gamma_;
   return group;
 }
 
@@ -163,7 +154,7 @@ void PlasticFlow<Real>::reset(Group& group) {
 template <class Real>
 SlotStates<Real> PlasticFlow<Real>::slot_states(Group& group) {
   forget_trial();  // who asks may write
-  SlotStates<Real> states = {{&strain_, 1}, {&group.gamma, 1}};
+  SlotStates<Real> states = {{&strain_, 1}};
   for (auto& list : group.A) states.push_back({&list, 1});
   return states;
 }
@@ -172,14 +163,12 @@ template <class Real>
 void PlasticFlow<Real>::scale_rest_shape(std::size_t s, Real factor) {
   forget_trial();
   for (auto& list : rest_A_) list[s] /= factor * factor;
-  rest_gamma_[s] /= factor * factor;
 }
 
 template <class Real>
 void PlasticFlow<Real>::gather_slots(std::span<const std::size_t> from) {
   forget_trial();
   for (auto& list : rest_A_) heml::gather_slots(list, from);
-  heml::gather_slots(rest_gamma_, from);
   heml::gather_slots(strain_, from);
 }
 

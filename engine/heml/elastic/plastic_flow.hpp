@@ -26,15 +26,14 @@ class PlasticFlow {
   /// law: the elastic law of the group's material.
   PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plasticity& plasticity, const Group& group);
 
-  /// Return mapping at positions x (3 #V, m): updates A and gamma of elements beyond yield. Returns the plastic work,
-  /// J.
+  /// Return mapping at positions x (3 #V, m): updates A of elements beyond yield. Returns the plastic work, J.
   double flow(Group& group, const Real* x);
 
   // A trial: begin_trial(), try_flow() of all packets, evaluations, end_trial(). Threads may call the functions of
   // packets [begin, end) on disjoint ranges.
   /// x: 3 #V, m. Returns whether try_flow() is done with: the last trial was at x too, and the state is as it was.
   bool begin_trial(Group& group, std::span<const Real> x);
-  /// Gives elements beyond yield the A that flow() would; their gamma stays.
+  /// Gives elements beyond yield the A that flow() would.
   void try_flow(Group& group, const Real* x, std::size_t begin, std::size_t end);
   /// What flow adds to the potential, J: Φ of return_mapping.hpp less W. 0 outside a trial.
   double trial_potential(const Group& group) const;
@@ -55,11 +54,9 @@ class PlasticFlow {
   /// mapped by subelement_maps[s].
   void transfer_state(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
                       const std::vector<SubelementMap<Real>>& subelement_maps, Group& group);
-  /// The lists of internal state: the plastic strain, and A and gamma of the group.
+  /// The lists of internal state: the plastic strain, and A of the group.
   SlotStates<Real> slot_states(Group& group);
-  std::size_t bytes() const {
-    return bytes_of(rest_A_, rest_gamma_, strain_, stress_bounds_, trial_x_, trial_strain_, other_A_);
-  }
+  std::size_t bytes() const { return bytes_of(rest_A_, strain_, stress_bounds_, trial_x_, trial_strain_, other_A_); }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 
  private:
@@ -81,7 +78,7 @@ class PlasticFlow {
   std::unique_ptr<GroupTerm<Real>> law_;
   Real yield_, hardening_;
   std::array<std::vector<Real>, 6> rest_A_;
-  std::vector<Real> rest_gamma_, strain_;
+  std::vector<Real> strain_;
   std::vector<Real> stress_bounds_;  ///< scratch
   // Of the last trial: where it was, the equivalent strain that flows, 0 where none does, and A there; while it lasts
   // the group has these A, and other_A_ those of the state.

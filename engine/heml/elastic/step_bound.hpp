@@ -2,48 +2,83 @@
 // The stable step of explicit methods, from an upper bound of the stiffness of each element. No iteration; valid in
 // motion, since the bound is evaluated at the deformed state.
 //
-// xᵀK x = Σ_t x_tᵀK_t x_t ≤ max_t λ_max(M_t⁻¹K_t) · xᵀM x with M_t = ρV/4 on each corner, also if K_t is indefinite.
-// K_t/V is the quadratic form of ∂²W/∂F² in dF = Σ_a u_a ⊗ g_a, the sum of two parts. The second derivatives H of W by
-// the invariants give Σ H_αβ dI_α dI_β ≤ λ_max(H N) |u|², N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a, exact for the pair I1, J.
-// The second derivatives of the invariants themselves are bounded term by term:
-//   |dF|² ≤ γ|u|²,   γ = λ_max(Σ g_a g_aᵀ);      |dC|² ≤ 4 σ1² |dF|²;      d²I4 = 2 |dF a0|² ≤ 2 Σ m_a² |u|²
-//   d²I5 = 2 |dC a0|² + 4 (dF a0)·(dF C a0),   |dC a0| ≤ (√(I4 γ) + σ1 √(Σ m_a²)) |u|
+// An element's bound b holds for K_t ≤ b M_t with M_t = ρV/4 z_a on corner a, also if K_t is indefinite; what follows
+// from those of all is in node_bounds.hpp. z_a > 0 are numbers of the nodes (step_weights.hpp), w_a = 1/z_a, and |u|²
+// here is Σ z_a |u_a|². K_t/V is the quadratic form of ∂²W/∂F² in dF = Σ_a u_a ⊗ g_a, the sum of two parts. The second
+// derivatives H of W by the invariants give Σ H_αβ dI_α dI_β ≤ λ_max(H N) |u|², N_αβ = Σ_a w_a ∂I_α/∂x_a·∂I_β/∂x_a,
+// exact for the pair I1, J. The second derivatives of the invariants themselves are bounded term by term:
+//   |dF|² ≤ γ|u|²,   γ = λ_max(Σ w_a g_a g_aᵀ);      |dC|² ≤ 4 σ1² |dF|²;      d²I4 = 2 |dF a0|² ≤ 2 Σ w_a m_a² |u|²
+//   d²I5 = 2 |dC a0|² + 4 (dF a0)·(dF C a0),   |dC a0| ≤ (√(I4 γ) + σ1 √(Σ w_a m_a²)) |u|
 //   d²I2 = (dI1)² + 2 I1 |dF|² − |dC|² − 2 C:dFᵀdF, whose first term is counted with H
 //   −√2 σ1 |dF|² ≤ d²J ≤ 2 σ1 |dF|², and for J > 0: d²J = ((dJ)² − tr((F⁻¹dF J)²))/J, which is sharper near rest.
 // σ1 ≥ σ2 ≥ σ3: principal stretches, bounded by mean and spread of the eigenvalues of C (Wolkowicz & Styan 1980).
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/edge_stiffness.hpp>
+#include <limits>
 
 namespace heml {
 
-/// Sums over an element's four corners that the bounds use.
+/// w_a of an element's corners.
+template <class Real>
+struct CornerWeights {
+  Real w[4] = {1, 1, 1, 1};
+};
+
+/// Σ_a w_a S_aa of a symmetric matrix over the corners, of which rows sum to zero; S: that of corners 1 to 3.
+template <class Real>
+[[gnu::always_inline]] inline Real over_corners(const Real S[6], const CornerWeights<Real>& weights) {
+  const Real* w = weights.w;
+  return w[1] * S[0] + w[2] * S[1] + w[3] * S[2] + w[0] * (S[0] + S[1] + S[2] + 2 * (S[3] + S[4] + S[5]));
+}
+
+/// γ = λ_max(Σ_a w_a g_a g_aᵀ), 1/m², or up to 2 % more: that of T = A (diag(w_1, w_2, w_3) + w_0 1 1ᵀ). With θ = acos
+/// r of Cardano's r, cos(θ/3) is concave in cos(θ/2), so below the tangents at its ends.
+template <class Real>
+[[gnu::always_inline]] inline Real max_gradient(const Real A[6], const CornerWeights<Real>& weights) {
+  const Real* w = weights.w;
+  const Real s0 = w[0] * (A[0] + A[3] + A[4]), s1 = w[0] * (A[3] + A[1] + A[5]), s2 = w[0] * (A[4] + A[5] + A[2]);
+  const Real mean = (w[1] * A[0] + w[2] * A[1] + w[3] * A[2] + s0 + s1 + s2) / 3;
+  const Real a = w[1] * A[0] + s0 - mean, e = w[2] * A[1] + s1 - mean, i = w[3] * A[2] + s2 - mean;
+  const Real b = w[2] * A[3] + s0, c = w[3] * A[4] + s0, d = w[1] * A[3] + s1;
+  const Real f = w[3] * A[5] + s1, g = w[1] * A[4] + s2, h = w[2] * A[5] + s2;
+  const Real square = (a * a + e * e + i * i + 2 * (b * d + c * g + f * h)) / 6;
+  const Real p = std::sqrt(std::max(square, Real(0)));
+  const Real det = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
+  const Real cube = std::max(2 * p * square, std::numeric_limits<Real>::min());
+  const Real t = std::sqrt(std::min(std::max((1 + det / cube) / 2, Real(0)), Real(1)));
+  const Real cosine = std::min(Real(0.5) + Real(0.57736) * t, 1 + Real(4.0 / 9) * (t - 1));
+  return (mean + 2 * p * cosine) * (1 + 16 * std::numeric_limits<Real>::epsilon());
+}
+
+/// Sums over an element's four corners that the bounds use, weighted.
 template <class Real>
 struct CornerSums {
   Real n1;  ///< (dI1)² ≤ n1 |u|²
   Real nJ;  ///< (dJ)² ≤ nJ |u|²
-  Real m;   ///< Σ m_a²
+  Real m;   ///< Σ w_a m_a²
 };
 
 template <class Real>
 [[gnu::always_inline]] inline CornerSums<Real> corner_sums(const ElementKinematics<Real>& kinematics,
-                                                           const RestShape<Real>& rest) {
-  // Σ_a |F g_a|² = tr(AGA) + 1ᵀAGA 1.
-  Real AGA[6];
+                                                           const RestShape<Real>& rest,
+                                                           const CornerWeights<Real>& weights) {
+  const Real* w = weights.w;
+  Real AGA[6];  // F g_a·F g_b
   product_AGA(rest.A, kinematics.AG, AGA);
-  CornerSums<Real> sums{4 * (2 * (AGA[0] + AGA[1] + AGA[2]) + 2 * (AGA[3] + AGA[4] + AGA[5])), 0, 0};
+  CornerSums<Real> sums{4 * over_corners(AGA, weights), 0, 0};
   for (int i = 0; i < 3; ++i) {
     Real sum = 0;
     for (int a = 0; a < 3; ++a) {
-      sums.nJ += kinematics.cross[a][i] * kinematics.cross[a][i];
+      sums.nJ += w[a + 1] * kinematics.cross[a][i] * kinematics.cross[a][i];
       sum += kinematics.cross[a][i];
     }
-    sums.nJ += sum * sum;
+    sums.nJ += w[0] * sum * sum;
   }
   sums.nJ /= 36 * rest.volume * rest.volume;
   const Real total = rest.fibre[0] + rest.fibre[1] + rest.fibre[2];
-  for (const Real m : rest.fibre) sums.m += m * m;
-  sums.m += total * total;
+  for (int a = 0; a < 3; ++a) sums.m += w[a + 1] * rest.fibre[a] * rest.fibre[a];
+  sums.m += w[0] * total * total;
   return sums;
 }
 
@@ -65,15 +100,15 @@ struct InvariantMatrix {
   Real n11 = 0, n12 = 0, n22 = 0, n1J = 0, n2J = 0, nJJ = 0, n14 = 0, n4J = 0, n44 = 0;
 };
 
-/// Products N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a over an element's corners.
+/// Products N_αβ = Σ_a w_a ∂I_α/∂x_a·∂I_β/∂x_a over an element's corners.
 template <class L, class Real>
 [[gnu::always_inline]] inline InvariantMatrix<Real> gradient_products(const ElementKinematics<Real>& kinematics,
                                                                       const RestShape<Real>& rest,
-                                                                      const CornerSums<Real>& sums) {
-  const Real* A = rest.A;
-  const auto over_corners = [](const Real S[6]) { return 2 * (S[0] + S[1] + S[2] + S[3] + S[4] + S[5]); };
+                                                                      const CornerSums<Real>& sums,
+                                                                      const CornerWeights<Real>& weights) {
+  const Real *A = rest.A, *w = weights.w;
   const auto& [I1, I2, J, I4, I5] = kinematics.at;
-  const Real q0 = over_corners(A), q1 = sums.n1 / 4;  // Σ_a g_a·Cᵏ g_a
+  const Real q0 = over_corners(A, weights), q1 = sums.n1 / 4;  // Σ_a w_a g_a·Cᵏ g_a
   InvariantMatrix<Real> N;
   N.n11 = sums.n1;
   N.n1J = 2 * J * q0;
@@ -85,7 +120,7 @@ template <class L, class Real>
     const Real B[3][3] = {{AGA[0], AGA[3], AGA[4]}, {AGA[3], AGA[1], AGA[5]}, {AGA[4], AGA[5], AGA[2]}};
     const auto entry = [&](int r, int c) { return m[r][0] * B[0][c] + m[r][1] * B[1][c] + m[r][2] * B[2][c]; };
     const Real AGAGA[6] = {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
-    const Real q2 = over_corners(AGAGA), q3 = I1 * q2 - I2 * q1 + J * J * q0;  // Cayley–Hamilton
+    const Real q2 = over_corners(AGAGA, weights), q3 = I1 * q2 - I2 * q1 + J * J * q0;  // Cayley–Hamilton
     N.n12 = 4 * (I1 * q1 - q2);
     N.n22 = 4 * (I1 * I1 * q1 - 2 * I1 * q2 + q3);
     N.n2J = 2 * J * (I1 * q0 - q1);
@@ -96,8 +131,9 @@ template <class L, class Real>
                         G[4] * m[0] + G[5] * m[1] + G[2] * m[2]};
     const Real AGm[3] = {A[0] * Gm[0] + A[3] * Gm[1] + A[4] * Gm[2], A[3] * Gm[0] + A[1] * Gm[1] + A[5] * Gm[2],
                          A[4] * Gm[0] + A[5] * Gm[1] + A[2] * Gm[2]};
-    // Σ_a m_a g_a·C a0; corner 0 has minus the sums.
-    N.n14 = 4 * (m[0] * AGm[0] + m[1] * AGm[1] + m[2] * AGm[2] + (m[0] + m[1] + m[2]) * (AGm[0] + AGm[1] + AGm[2]));
+    // Σ_a w_a m_a g_a·C a0; corner 0 has minus the sums.
+    N.n14 = 4 * (w[1] * m[0] * AGm[0] + w[2] * m[1] * AGm[1] + w[3] * m[2] * AGm[2] +
+                 w[0] * (m[0] + m[1] + m[2]) * (AGm[0] + AGm[1] + AGm[2]));
     N.n4J = 2 * J * sums.m;
     N.n44 = 4 * I4 * sums.m;
   }
@@ -168,7 +204,9 @@ template <class Real>
 /// N_αβ over I1, J, I2, I4, I5 at the four corners.
 template <class L, class Real>
 [[gnu::always_inline]] inline void all_gradient_products(const ElementKinematics<Real>& kinematics,
-                                                         const RestShape<Real>& rest, Real (&N)[5][5]) {
+                                                         const RestShape<Real>& rest,
+                                                         const CornerWeights<Real>& weights, Real (&N)[5][5]) {
+  const Real* w = weights.w;
   Real u[3][3], p[5][9];
   invariant_gradients<L>(kinematics, rest, u, p);
   for (int k = 0; k < 5; ++k)
@@ -176,7 +214,8 @@ template <class L, class Real>
       N[k][l] = 0;
       for (int i = 0; i < 3; ++i) {
         const Real *a = p[k] + i, *b = p[l] + i;
-        N[k][l] += a[0] * b[0] + a[3] * b[3] + a[6] * b[6] + (a[0] + a[3] + a[6]) * (b[0] + b[3] + b[6]);
+        N[k][l] += w[1] * a[0] * b[0] + w[2] * a[3] * b[3] + w[3] * a[6] * b[6] +
+                   w[0] * (a[0] + a[3] + a[6]) * (b[0] + b[3] + b[6]);
       }
     }
 }
@@ -185,37 +224,39 @@ template <class L, class Real>
 template <class Real>
 [[gnu::always_inline]] inline Real fibre_bound(const FirstDerivatives<Real>& s,
                                                const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
-                                               const CornerSums<Real>& sums, Real largest, Real gamma) {
+                                               const CornerSums<Real>& sums, const CornerWeights<Real>& weights,
+                                               Real largest, Real gamma) {
+  const Real* w = weights.w;
   // The first is rank two in the corners: m qᵀ + q mᵀ with q = w4 m + 2 w5 n, whose larger eigenvalue is m·q + |m||q|.
   const Real *m = rest.fibre, *n = kinematics.n;
   Real q[3], mq = 0, qq = 0, total = 0;
   for (int a = 0; a < 3; ++a) {
     q[a] = s.w4 * m[a] + 2 * s.w5 * n[a];
-    mq += m[a] * q[a], qq += q[a] * q[a], total += q[a];
+    mq += w[a + 1] * m[a] * q[a], qq += w[a + 1] * q[a] * q[a], total += q[a];
   }
-  mq += (m[0] + m[1] + m[2]) * total, qq += total * total;
+  mq += w[0] * (m[0] + m[1] + m[2]) * total, qq += w[0] * total * total;
   const Real side = std::sqrt(std::max(kinematics.at.I4, Real(0)) * gamma) + std::sqrt(largest * sums.m);  // |dC a0|
   return mq + std::sqrt(sums.m * qq) + 2 * std::max(s.w5, Real(0)) * side * side;
 }
 
-/// Upper bound of λ_max(M_t⁻¹K_t), 1/s², of one element. kinematics: of law_kinematics(). gamma: 1/m², of ElementGroup.
-/// density: kg/m³.
+/// Upper bound of λ_max(M_t⁻¹K_t), 1/s², of one element. kinematics: of law_kinematics(). density: kg/m³.
 template <class Real, InvariantLaw<Real> L>
 [[gnu::always_inline]] inline Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics,
-                                                           const RestShape<Real>& rest, Real gamma, Real density) {
+                                                           const RestShape<Real>& rest,
+                                                           const CornerWeights<Real>& weights, Real density) {
   const FirstDerivatives<Real> s = law.first_derivatives(kinematics.at);
   const SecondDerivatives<Real> c = law.second_derivatives(kinematics.at);
   const Real I1 = kinematics.at.I1, J = kinematics.at.J;
   const auto positive = [](Real value) { return std::max(value, Real(0)); };
   const auto [largest, middle] = stretch_bounds(kinematics.at);
-  const Real sigma1 = std::sqrt(largest);
-  const CornerSums<Real> sums = corner_sums(kinematics, rest);
+  const Real sigma1 = std::sqrt(largest), gamma = max_gradient(rest.A, weights);
+  const CornerSums<Real> sums = corner_sums(kinematics, rest, weights);
 
   // S:(dFᵀdF) with S = 2 (w1 + I1 w2) I − 2 w2 C + 2 w4 a0 a0ᵀ, and −w2 |dC|².
   Real bound = positive(2 * (s.w1 + I1 * s.w2) + 2 * positive(-s.w2) * largest) * gamma;
   bound += positive(-s.w2) * 4 * largest * gamma;
   if constexpr (FibreShearLaw<L>)
-    bound += fibre_bound(s, kinematics, rest, sums, largest, gamma);
+    bound += fibre_bound(s, kinematics, rest, sums, weights, largest, gamma);
   else if constexpr (L::uses_I4)
     bound += 2 * positive(s.w4) * sums.m;
 
@@ -223,10 +264,10 @@ template <class Real, InvariantLaw<Real> L>
   const auto curvature = [&] {
     if constexpr (FibreShearLaw<L>) {
       Real N[5][5];
-      all_gradient_products<L>(kinematics, rest, N);
+      all_gradient_products<L>(kinematics, rest, weights, N);
       return max_fibre_curvature(N, H, c);
     } else {
-      return max_curvature<L>(H, gradient_products<L>(kinematics, rest, sums));
+      return max_curvature<L>(H, gradient_products<L>(kinematics, rest, sums, weights));
     }
   };
   const Real plain = curvature() + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
@@ -241,13 +282,14 @@ template <class Real, InvariantLaw<Real> L>
 /// σj²)(X_ij² + X_ji²), so a strongly compressed direction counts with its own small σ only.
 template <class Real, PrincipalLaw<Real> L>
 Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
-                             Real gamma, Real density) {
+                             const CornerWeights<Real>& weights, Real density) {
   Real factor[3][3], C[6];
   cholesky3(rest.A, factor);
   into_rest_frame(factor, kinematics.G, C);
   const auto at = principal_state<L::is_continued>(law, C, kinematics.at.J);
   const Real* c = at.e.value;
-  const auto [n1, nJ, m] = corner_sums(kinematics, rest);
+  const auto [n1, nJ, m] = corner_sums(kinematics, rest, weights);
+  const Real gamma = max_gradient(rest.A, weights);
   const Real sigma1 = std::sqrt(std::max({c[0], c[1], c[2]})), p = at.v.p, p1 = std::abs(at.v.p1);
   Real most = 0, square = 0, HC = 0, shape = 0, volume = 0;
   for (int i = 0; i < 3; ++i) {

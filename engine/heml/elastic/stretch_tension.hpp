@@ -98,13 +98,14 @@ template <class Real, StretchLaw L>
 /// |u|². The part wJJ (dJ)² may instead count as nJ |u|² (step_bound.hpp), which is sharper for flat elements.
 template <class Real, StretchLaw L>
 Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
-                             Real gamma, Real density) {
+                             const CornerWeights<Real>& weights, Real density) {
   const ElementStretchTangent<Real> element(law, kinematics, rest);
   const auto& tangent = element.tangent();
   const auto& state = tangent.state;
   const auto& second = tangent.second;
   const Real* theta = tangent.theta;
-  const auto sums = corner_sums(kinematics, rest);
+  const auto sums = corner_sums(kinematics, rest, weights);
+  const Real gamma = max_gradient(rest.A, weights);
   const auto positive = [](Real value) { return std::max(value, Real(0)); };
   const Real *c = state.e.value, *h = state.first.h, J = kinematics.at.J, wJ = state.first.wJ;
   Real s[3], volume[3];  // dJ = Σ volume_i X_ii

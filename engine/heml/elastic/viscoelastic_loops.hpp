@@ -178,11 +178,12 @@ void each_run_with_law(const GroupTerm<Real>& law, const ElementGroup<Real>& gro
 /// uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
 template <class Real>
 [[gnu::always_inline]] inline void viscous_bounds(const MemoryOf<Real>& of, const ElementGroup<Real>& group,
-                                                  const Real* x, std::size_t begin, std::size_t end, Real* bounds,
-                                                  bool add) {
+                                                  const Real* weights, const Real* x, std::size_t begin,
+                                                  std::size_t end, Real* bounds, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, false> packet(group, x, p * lanes);
+    const PacketWeights<Real> of_corners(group, weights, p);
     Real bound[lanes];
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -190,17 +191,17 @@ template <class Real>
       const RestShape<Real> rest = packet.rest(l);
       const auto kinematics = element_kinematics<true, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
       bound[l] = 4 / group.density *
-                 (2 * of.eta * stretch_bounds(kinematics.at).max * group.gamma[p * lanes + l] +
-                  of.zeta / 4 * corner_sums(kinematics, rest).n1);
+                 (2 * of.eta * stretch_bounds(kinematics.at).max * max_gradient(rest.A, of_corners.at(l)) +
+                  of.zeta / 4 * corner_sums(kinematics, rest, of_corners.at(l)).n1);
     }
     for (std::size_t l = 0; l < lanes; ++l) bounds[l] = (add ? bounds[l] : 0) + bound[l];
   }
 }
 
 template <class Real>
-HEML_WIDE void wide_viscous_bounds(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
-                                   std::size_t begin, std::size_t end, Real* bounds, bool add) {
-  viscous_bounds(of, group, x, begin, end, bounds, add);
+HEML_WIDE void wide_viscous_bounds(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* weights,
+                                   const Real* x, std::size_t begin, std::size_t end, Real* bounds, bool add) {
+  viscous_bounds(of, group, weights, x, begin, end, bounds, add);
 }
 
 }  // namespace heml

@@ -155,39 +155,46 @@ Tensions<Real> ViscoelasticTerm<Real>::tension_differential(const Group& group, 
 template <class Real>
 Real ViscoelasticTerm<Real>::slot_frequency_bound(const Group& group, std::size_t s,
                                                   const ElementKinematics<Real>& kinematics,
-                                                  const RestShape<Real>& rest) const {
+                                                  const RestShape<Real>& rest,
+                                                  const CornerWeights<Real>& weights) const {
   if (branches_.empty()) return 0;
-  return total_gamma_ * law_->slot_frequency_bound(group, s, kinematics, rest) + slot_state_bound(group, s);
+  return total_gamma_ * law_->slot_frequency_bound(group, s, kinematics, rest, weights) +
+         slot_state_bound(group, s, weights);
 }
 
 template <class Real>
-Real ViscoelasticTerm<Real>::slot_state_bound(const Group& group, std::size_t s) const {
+Real ViscoelasticTerm<Real>::slot_state_bound(const Group& group, std::size_t s,
+                                              const CornerWeights<Real>& weights) const {
+  const auto rest = rest_shape(group, s);
   StressSum<Real> fixed;
-  fixed.add(fixed_tensions(s), rest_shape(group, s));
-  return 4 / group.density * std::sqrt(double_contraction3(fixed.S, fixed.S)) * group.gamma[s];
+  fixed.add(fixed_tensions(s), rest);
+  return 4 / group.density * std::sqrt(double_contraction3(fixed.S, fixed.S)) * max_gradient(rest.A, weights);
 }
 
 template <class Real>
-void ViscoelasticTerm<Real>::frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
-                                              Real* bounds, bool add) const {
+void ViscoelasticTerm<Real>::frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin,
+                                              std::size_t end, Real* bounds, bool add) const {
   constexpr std::size_t lanes = Group::lanes;
   if (!add) std::fill_n(bounds, (end - begin) * lanes, Real(0));
   if (branches_.empty()) return;
   Real of_law[lanes];
   for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
-    law_->frequency_bounds(group, x, p, p + 1, of_law, false);
-    for (std::size_t l = 0; l < lanes; ++l)
-      bounds[l] += total_gamma_ * of_law[l] + (in_fans_ ? 0 : slot_state_bound(group, p * lanes + l));
+    law_->frequency_bounds(group, weights, x, p, p + 1, of_law, false);
+    for (std::size_t l = 0; l < lanes; ++l) bounds[l] += total_gamma_ * of_law[l];
+    for (std::size_t l = 0; l < lanes && !in_fans_; ++l) {
+      const std::size_t s = p * lanes + l;
+      bounds[l] += slot_state_bound(group, s, weights_of_slot(group, weights, s));
+    }
   }
 }
 
 template <class Real>
-void ViscoelasticTerm<Real>::damping_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
-                                            Real* bounds, bool add) const {
-  if (eta_ == 0 && zeta_ == 0) return GroupTerm<Real>::damping_bounds(group, x, begin, end, bounds, add);
+void ViscoelasticTerm<Real>::damping_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin,
+                                            std::size_t end, Real* bounds, bool add) const {
+  if (eta_ == 0 && zeta_ == 0) return GroupTerm<Real>::damping_bounds(group, weights, x, begin, end, bounds, add);
   const MemoryOf<Real> of = memory();
-  if (has_avx2()) return wide_viscous_bounds(of, group, x, begin, end, bounds, add);
-  viscous_bounds(of, group, x, begin, end, bounds, add);
+  if (has_avx2()) return wide_viscous_bounds(of, group, weights, x, begin, end, bounds, add);
+  viscous_bounds(of, group, weights, x, begin, end, bounds, add);
 }
 
 template <class Real>

@@ -42,11 +42,11 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
                                       const RestShape<Real>& rest,
                                       const KinematicsDifferential<Real>& change) const override;
   Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
-                            const RestShape<Real>& rest) const override;
-  void frequency_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
-                        bool add) const override;
-  void damping_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* bounds,
-                      bool add) const override;
+                            const RestShape<Real>& rest, const CornerWeights<Real>& weights) const override;
+  void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
+                        Real* bounds, bool add) const override;
+  void damping_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
+                      Real* bounds, bool add) const override;
   double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                 const RestShape<Real>& rest) const override;
   bool stores() const override { return false; }
@@ -71,7 +71,7 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   };
   MemoryOf<Real> memory() const;
   Tensions<Real> fixed_tensions(std::size_t s) const;
-  Real slot_state_bound(const Group& group, std::size_t s) const;
+  Real slot_state_bound(const Group& group, std::size_t s, const CornerWeights<Real>& weights) const;
   void add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const;
   void total_tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                       const RestShape<Real>& rest, Real T[6]) const;

@@ -26,7 +26,7 @@ struct StepFacts {
   int steps_per_tick = 1;       ///< of the method in use
   int element = -1;             ///< adds most to ω² at the node that limits the step, mesh-file order; −1: springs
   double element_share = 0;     ///< how much of the bound of ω² it adds, to 1
-  double median_ratio = 0;      ///< the bound of that node (elastic/node_bounds.hpp) over the one of the median node
+  double median_ratio = 0;      ///< the bound of that node (elastic/step_weights.hpp) over the one of the median node
 };
 
 /// Of an implicit or a static world.

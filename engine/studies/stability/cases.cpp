@@ -86,7 +86,7 @@ const std::vector<Case>& table() {
       {21, "ν = 0.499", "with nodal pressure it sags like ν = 0.3 and keeps its volume to 0.5 %",
        "difference / sag", 0.12, 0.12, with_volume_term, {static_equilibrium}, {"21_nearly_incompressible"},
        nearly_incompressible},
-      {22, "sliver", "explicit: the step is stable and the element named (but of springs); implicit: nothing changes",
+      {22, "sliver", "explicit: the step is stable, and the element that shortens it named; implicit: nothing changes",
        "explicit: step over the longest stable one, beyond 0.9; implicit: difference / sag", 0.05, 0.05, laws, moving, {"22_sliver"}, sliver},
       {23, "density 1 : 10⁴", "explicit and implicit steps agree",
        "difference / motion", 0.01, 0.01, laws, {verlet, tr_bdf2}, {"23_heavy_half"}, density_ratio},

@@ -1,0 +1,118 @@
+#include <doctest/doctest.h>
+
+#include <heml/elastic/step_weights.hpp>
+
+#include "quadratic_body.hpp"
+#include "small_body.hpp"
+
+namespace heml::step_weights_test {
+
+using namespace heml::test;
+
+namespace {
+
+std::vector<double> bent(const TetMesh& mesh) {
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes)
+    x.insert(x.end(), {X.x() + 3 * X.y() * X.z(), 1.1 * X.y(), X.z() - 2 * X.x() * X.x()});
+  return x;
+}
+
+struct TwoMaterials {
+  TetMesh mesh;
+  MidEdges midedges;
+  std::vector<int> material_of;
+  std::vector<Material> materials{sample_material("neo_hookean"), sample_material("mooney_rivlin")};
+
+  TwoMaterials(TetMesh of, bool quadratic) : mesh(std::move(of)) {
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) material_of.push_back(static_cast<int>(t % 2));
+    if (quadratic) midedges = add_midedge_nodes(mesh);
+  }
+  ElasticBody<double> body() const { return {mesh, material_of, materials, BodyOptions{true, false}, midedges}; }
+  /// The largest of the bounds of elements alone.
+  double of_elements(ThreadTeam& team) const {
+    double largest = 0;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      TetMesh one;
+      for (const int n : mesh.tets[t]) one.nodes.push_back(mesh.nodes[static_cast<std::size_t>(n)]);
+      one.tets = {{0, 1, 2, 3}};
+      one.regions = {0};
+      const MidEdges middles = midedges.empty() ? MidEdges{} : add_midedge_nodes(one);
+      ElasticBody<double> alone(one, {0}, {materials[static_cast<std::size_t>(material_of[t])]},
+                                BodyOptions{true, false}, middles);
+      largest = std::max(largest, alone.frequency_bound(bent(one).data(), team));
+    }
+    return largest;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("step weights: the bound is between the highest eigenvalue and that of the worst element alone") {
+  std::mt19937_64 random(6);
+  ThreadTeam team(1);
+  for (const bool quadratic : {false, true}) {
+    CAPTURE(quadratic);
+    const TwoMaterials two(irregular_box(random, {4, 3, 2}), quadratic);
+    ElasticBody<double> body = two.body();
+    const std::vector<double> x = bent(two.mesh);
+    NodeBounds<double> nodes;
+    const double bound = body.frequency_bound(x.data(), team, nodes, 0);
+    const double highest = highest_eigenvalue(body, x), worst = two.of_elements(team);
+    CHECK(bound == nodes.bounds()[nodes.largest_node()]);
+    CHECK(bound >= highest);
+    CHECK(bound <= 0.75 * worst);
+    const auto [element, share] = body.largest_contribution(nodes.largest_node());
+    CHECK(element >= 0);
+    CHECK((share > 0.05 && share <= 1));
+    MESSAGE("bound / highest = " << bound / highest << ", worst element / highest = " << worst / highest);
+  }
+}
+
+TEST_CASE("step weights: a sliver in a body hardly raises the bound") {
+  std::mt19937_64 random(7);
+  ThreadTeam team(1);
+  TetMesh mesh = irregular_box(random, {3, 3, 2});
+  const auto bound = [&] {
+    const TwoMaterials two(mesh, false);
+    ElasticBody<double> body = two.body();
+    const double value = body.frequency_bound(bent(two.mesh).data(), team);
+    CHECK(value >= highest_eigenvalue(body, bent(two.mesh)));
+    return std::pair{value, two.of_elements(team)};
+  };
+  const auto [without, worst_without] = bound();
+  // A node close above a face of one element, which becomes four: one of them has a hundredth of its height.
+  const Tet whole = mesh.tets[20];
+  Vec3 inside = Vec3::Zero();
+  const double at[4] = {0.33, 0.33, 0.33, 0.01};
+  for (std::size_t a = 0; a < 4; ++a) inside += at[a] * mesh.nodes[static_cast<std::size_t>(whole[a])];
+  const int added = static_cast<int>(mesh.nodes.size());
+  mesh.nodes.push_back(inside);
+  for (std::size_t a = 0; a < 4; ++a) {
+    Tet part = whole;
+    part[a] = added;
+    if (a == 0) {
+      mesh.tets[20] = part;
+    } else {
+      mesh.tets.push_back(part);
+      mesh.regions.push_back(mesh.regions[20]);
+    }
+  }
+  const auto [with, worst_with] = bound();
+  MESSAGE("bound with the sliver / without = " << with / without
+                                               << ", worst element with / without = " << worst_with / worst_without);
+  CHECK(worst_with > 50 * worst_without);
+  CHECK(with < 10 * without);
+}
+
+TEST_CASE("step weights: the same for any number of threads, in float and double") {
+  std::mt19937_64 random(8);
+  ThreadTeam one(1), three(3);
+  for (const bool quadratic : {false, true}) {
+    const TwoMaterials two(irregular_box(random, {10, 9, 8}), quadratic);
+    ElasticBody<double> a = two.body(), b = two.body();
+    CHECK(a.frequency_bound(bent(two.mesh).data(), one) == b.frequency_bound(bent(two.mesh).data(), three));
+  }
+}
+
+}  // namespace heml::step_weights_test
