@@ -25,6 +25,7 @@ struct ContactImpulses<Real>::StepPath {
 template <class Real>
 void ContactImpulses<Real>::begin_tick() {
   impulse_.clear();
+  touching_.clear();
   duration_ = normal_impulse_ = 0;
 }
 
@@ -36,6 +37,7 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   surfaces_ = contacts.surfaces(time_after);
   contacts.reports.resize(surfaces_.size());
   impulse_.resize(contacts.reports.size(), Vec3::Zero());
+  touching_.resize(contacts.reports.size(), 0);
   duration_ += h;
   stopped_.clear();
   if (memory_.time != time_before) memory_ = {};
@@ -127,10 +129,13 @@ void ContactImpulses<Real>::stop_points(const StepPath& path, std::size_t s, Con
 template <class Real>
 void ContactImpulses<Real>::report_probe(double weight, Contacts& contacts, const Real* v) {
   const std::size_t s = probe_surface(contacts);
+  int count = 0;
   probe_.each_impulse([&](const ContactPoint& point, const Vec3& impulse) {
+    ++count;
     impulse_[s] += weight * impulse;
     contacts.reports[s].work += weight * impulse.dot(at(v, point));
   });
+  touching_[s] = std::max(touching_[s], count);
 }
 
 /// The record of a point on surface s in this step, made where there is none.
@@ -238,7 +243,7 @@ void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vect
 }
 
 template <class Real>
-void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) const {
+void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) {
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     ContactReport& report = contacts.reports[s];
     report.force = impulse_[s] / duration_;
@@ -265,6 +270,8 @@ void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) const {
   };
   for (const Stopped& stopped : stopped_) count(stopped.surface, stopped.point);
   probe_.each_impulse([&](const ContactPoint& point, const Vec3&) { count(probe_surface(contacts), point); });
+  for (std::size_t s = 0; s < surfaces_.size(); ++s)  // impulses come and go within a tick
+    touching_[s] = contacts.reports[s].contact_count = std::max(touching_[s], contacts.reports[s].contact_count);
 }
 
 template class ContactImpulses<float>;

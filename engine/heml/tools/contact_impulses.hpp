@@ -53,7 +53,7 @@ class ContactImpulses {
   bool tissue_is_touched() const;
   bool takes_turns(const Contacts& contacts) const;
   void update_anchors(const Real* x);
-  void publish(Contacts& contacts, const Real* x) const;
+  void publish(Contacts& contacts, const Real* x);
 
   void report_probe(double weight, Contacts& contacts, const Real* v);
 
@@ -63,6 +63,7 @@ class ContactImpulses {
   ContactMemory memory_;
   std::vector<Stopped> stopped_;          ///< in the first half the last surface first
   std::vector<Vec3> impulse_;             ///< N s, of each surface, since the tick began
+  std::vector<int> touching_;             ///< points of each surface in contact, most in a step since the tick began
   double duration_ = 0;                   ///< s, since the tick began
   std::vector<ContactSurface> surfaces_;  ///< at the end of the step
 };

@@ -15,7 +15,7 @@ struct ContactReport {
   double work = 0;             ///< J, on the body: negative of friction, possibly positive of a probe, zero of impacts
   double energy = 0;           ///< J, stored in the contact energy of an implicit method
   double max_penetration = 0;  ///< m, 0: none
-  int contact_count = 0;       ///< points of the body in contact
+  int contact_count = 0;       ///< points in contact: in the last implicit step, or at most in the steps of a tick
   int rounds = 0;              ///< self-contact, explicit methods: rounds over all pairs in the last step
   double residual = 0;         ///< and the change of an impulse in the last round, of the largest impulse
 };
