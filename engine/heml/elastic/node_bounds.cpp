@@ -38,8 +38,7 @@ void NodeBounds<Real>::begin(std::size_t nodes, int steps) {
     const bool is_watched = next_watched < watched_.size() && watched_[next_watched] == static_cast<int>(n);
     if (is_watched) ++next_watched;
     const Real growth = std::max(growth_[n / neighbourhood], fastest * static_cast<Real>(elsewhere));
-    const Real room = bound_[n] == largest_ ? 0 : largest_ * (1 + static_cast<Real>(tolerance)) - bound_[n];
-    const bool may_be_largest = !(2 * static_cast<Real>(age) * growth < room);
+    const bool may_be_largest = !(2 * static_cast<Real>(age) * growth < largest_ - bound_[n]);
     if (known_ == Known::bounds || is_watched || age == max_age || may_be_largest) due_.push_back(static_cast<int>(n));
   }
 }

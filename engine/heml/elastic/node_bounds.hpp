@@ -8,10 +8,9 @@
 //
 // A node whose bound was far below the maximum cannot have reached it since: only those that may have are evaluated
 // again, with all elements round them. A node is due
-// - where it has the largest, or may be larger by more than the tolerance: 2 · age · growth ≥ 1.02 largest − bound.
-// growth:
-//   the fastest that a bound was seen to grow, a step, among the neighbours in inner order, or a quarter of the fastest
-//   elsewhere, from where waves take some steps;
+// - where 2 · age · growth ≥ largest − bound, so always the largest; growth: the fastest that a bound was seen to grow,
+// a
+//   step, among the neighbours in inner order, or a quarter of the fastest elsewhere, from where waves take some steps;
 // - at max_age;
 // - where it is watched: something acts on its elements, whose bounds may grow without notice.
 #include <cstddef>
@@ -25,7 +24,6 @@ template <class Real>
 class NodeBounds {
  public:
   static constexpr int max_age = 32;                ///< steps
-  static constexpr double tolerance = 0.02;         ///< of the maximum: nodes that exceed it by less may be missed
   static constexpr std::size_t neighbourhood = 32;  ///< nodes
   static constexpr double elsewhere = 0.25;
 

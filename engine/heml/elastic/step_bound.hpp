@@ -44,9 +44,11 @@ template <class Real>
   const Real f = w[3] * A[5] + s1, g = w[1] * A[4] + s2, h = w[2] * A[5] + s2;
   const Real square = (a * a + e * e + i * i + 2 * (b * d + c * g + f * h)) / 6;
   const Real p = std::sqrt(std::max(square, Real(0)));
-  const Real det = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
-  const Real cube = std::max(2 * p * square, std::numeric_limits<Real>::min());
-  const Real t = std::sqrt(std::min(std::max((1 + det / cube) / 2, Real(0)), Real(1)));
+  const Real unit = 1 / std::max(p, std::numeric_limits<Real>::min());  // p³ of a tiny element is no float
+  const Real det = (a * unit) * ((e * unit) * (i * unit) - (f * unit) * (h * unit)) -
+                   (b * unit) * ((d * unit) * (i * unit) - (f * unit) * (g * unit)) +
+                   (c * unit) * ((d * unit) * (h * unit) - (e * unit) * (g * unit));
+  const Real t = std::sqrt(std::min(std::max((2 + det) / 4, Real(0)), Real(1)));
   const Real cosine = std::min(Real(0.5) + Real(0.57736) * t, 1 + Real(4.0 / 9) * (t - 1));
   return (mean + 2 * p * cosine) * (1 + 16 * std::numeric_limits<Real>::epsilon());
 }

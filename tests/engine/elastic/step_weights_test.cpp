@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <Eigen/Dense>
+#include <heml/elastic/step_bound.hpp>
 #include <heml/elastic/step_weights.hpp>
+#include <numeric>
 
 #include "quadratic_body.hpp"
 #include "small_body.hpp"
@@ -47,6 +50,69 @@ struct TwoMaterials {
 };
 
 }  // namespace
+
+TEST_CASE_TEMPLATE("step weights: γ is at most 2 % above the largest eigenvalue, of elements of any size and shape",
+                   Real, float, double) {
+  std::mt19937_64 random(10);
+  for (int k = 0; k < 3000; ++k) {
+    // From regular ones to slivers, from a tenth of a micrometre to a hundred metres.
+    const double size = std::pow(10.0, uniform(random, -7, 2)), flat = std::pow(10.0, uniform(random, -2, 0));
+    Mat3 g;  // row a−1: g_a
+    do
+      for (int i = 0; i < 9; ++i) g(i / 3, i % 3) = uniform(random, -1, 1);
+    while (std::abs(g.determinant()) < 0.05);
+    g.col(0) /= flat;
+    g /= size;
+    const Mat3 A = g * g.transpose();
+    const Real entries[6] = {Real(A(0, 0)), Real(A(1, 1)), Real(A(2, 2)), Real(A(0, 1)), Real(A(0, 2)), Real(A(1, 2))};
+    CornerWeights<Real> weights;
+    for (Real& w : weights.w) w = static_cast<Real>(std::pow(10.0, uniform(random, -1, 0)));
+    const Vec3 g0 = -g.colwise().sum().transpose();
+    Mat3 sum = static_cast<double>(weights.w[0]) * g0 * g0.transpose();
+    for (int a = 0; a < 3; ++a) sum += static_cast<double>(weights.w[a + 1]) * g.row(a).transpose() * g.row(a);
+    const double exact = Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvalues()[2];
+    const auto bound = static_cast<double>(max_gradient(entries, weights));
+    CHECK(bound >= exact);
+    CHECK(bound <= 1.021 * exact);
+  }
+}
+
+TEST_CASE("step weights: the factor of a quadratic element is that of its nodes' weights") {
+  std::mt19937_64 random(11);
+  ThreadTeam team(1);
+  TetMesh mesh = irregular_box(random, {3, 2, 2});
+  const MidEdges midedges = add_midedge_nodes(mesh);
+  BodyLayout<double> layout;
+  layout.mesh = virtual_tets(mesh, midedges);
+  layout.virtual_corners.emplace(mesh, midedges);
+  std::vector<int> points(layout.mesh.tets.size());
+  std::iota(points.begin(), points.end(), 0);
+  const auto group = make_group<double>(layout.mesh, points, sample_material("neo_hookean"));
+  const StepWeights<double> weights = find_step_weights<double>({{&group, 3e3, 2e4}}, layout, team);
+  REQUIRE(weights.factor.size() == mesh.tets.size());
+  double least = 1, most = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    // uᵀ Σ_q m_q |B_q u less its mean|² u over uᵀ M Z u, in one coordinate.
+    Eigen::MatrixXd strained = Eigen::MatrixXd::Zero(10, 10), mass = Eigen::MatrixXd::Zero(10, 10);
+    for (std::size_t q = 0; q < element_points; ++q)
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j)
+          for (const auto& a : virtual_corner(q, i))
+            for (const auto& b : virtual_corner(q, j))
+              strained(static_cast<int>(a.node), static_cast<int>(b.node)) +=
+                  a.weight * b.weight * ((i == j ? 1 : 0) - 0.25) / 16;
+    const QuadraticNodes& nodes = layout.virtual_corners->nodes_of(t);
+    for (int a = 0; a < 10; ++a) {
+      const double w = weights.node[static_cast<std::size_t>(nodes[static_cast<std::size_t>(a)])];
+      mass(a, a) = (a < 4 ? 1.0 / 36 : 4.0 / 27) / w;
+      least = std::min(least, w), most = std::max(most, w);
+    }
+    const double largest =
+        Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(strained, mass).eigenvalues().maxCoeff();
+    CHECK(weights.factor[t] == doctest::Approx(largest / frequency_ratio).epsilon(1e-9));
+  }
+  CHECK(least < 0.7 * most);
+}
 
 TEST_CASE("step weights: the bound is between the highest eigenvalue and that of the worst element alone") {
   std::mt19937_64 random(6);
