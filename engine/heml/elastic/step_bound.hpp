@@ -44,7 +44,9 @@ template <class Real>
   const Real f = w[3] * A[5] + s1, g = w[1] * A[4] + s2, h = w[2] * A[5] + s2;
   const Real square = (a * a + e * e + i * i + 2 * (b * d + c * g + f * h)) / 6;
   const Real p = std::sqrt(std::max(square, Real(0)));
-  const Real unit = 1 / std::max(p, std::numeric_limits<Real>::min());  // p³ of a tiny element is no float
+  // p³ of a tiny element is no float; of a regular one p is round-off, also 0 beside a, e, i that are not.
+  const Real noise = std::max(std::numeric_limits<Real>::epsilon() * mean, std::numeric_limits<Real>::min());
+  const Real unit = 1 / std::max(p, noise);
   const Real det = (a * unit) * ((e * unit) * (i * unit) - (f * unit) * (h * unit)) -
                    (b * unit) * ((d * unit) * (i * unit) - (f * unit) * (g * unit)) +
                    (c * unit) * ((d * unit) * (h * unit) - (e * unit) * (g * unit));

@@ -77,6 +77,30 @@ TEST_CASE_TEMPLATE("step weights: γ is at most 2 % above the largest eigenvalue
   }
 }
 
+TEST_CASE_TEMPLATE("step weights: γ of regular elements, where all eigenvalues are one but for round-off", Real, float,
+                   double) {
+  std::mt19937_64 random(12);
+  const Mat3 regular = (Mat3() << 1, 1, -1, 1, -1, 1, -1, 1, 1).finished();
+  for (int k = 0; k < 10000; ++k) {
+    const double size = std::pow(10.0, uniform(random, -7, 2));
+    const Mat3 turned = k % 2 == 0 ? Mat3(Mat3::Identity()) : random_rotation(random);
+    const Mat3 g = regular / size * turned;
+    const Mat3 A = g * g.transpose();
+    Real entries[6] = {Real(A(0, 0)), Real(A(1, 1)), Real(A(2, 2)), Real(A(0, 1)), Real(A(0, 2)), Real(A(1, 2))};
+    CornerWeights<Real> weights;
+    std::fill_n(weights.w, 4, static_cast<Real>(uniform(random, 0.5, 1)));
+    const auto round = [&](Real& value) {  // by at most one unit in the last place
+      value *= 1 + std::numeric_limits<Real>::epsilon() * static_cast<Real>(static_cast<int>(uniform(random, -2, 2)));
+    };
+    for (Real& entry : entries) round(entry);
+    for (Real& w : weights.w) round(w);
+    const double exact = 4 * static_cast<double>(weights.w[0]) / (size * size);
+    const auto bound = static_cast<double>(max_gradient(entries, weights));
+    CHECK(bound >= exact);
+    CHECK(bound <= 1.021 * exact);
+  }
+}
+
 TEST_CASE("step weights: the factor of a quadratic element is that of its nodes' weights") {
   std::mt19937_64 random(11);
   ThreadTeam team(1);
