@@ -31,10 +31,9 @@ std::string mesh_convergence_text(const MeshConvergenceStudy& convergence) {
   const Extrapolation& e = convergence.reference;
   if (!e.failure.empty()) return fmt::format("The error of the mesh is not known: {}.", e.failure);
   std::string text = fmt::format(
-      "Errors of the mesh are of the body at rest under its loads, measured from three meshes, each with every "
-      "tetrahedron of the one before in eight, extrapolated ({}, order {:.2f} and 2, the middle of both; ± {}",
-      e.element, e.order, length_text(e.uncertainty));
-  text += ")";
+      "Errors of the mesh are of the body at rest under its loads, measured from {} meshes, each with every "
+      "tetrahedron of the one before in eight, extrapolated ({}, orders {:.2f} and {:g}, the middle of both; ± {})",
+      e.meshes, e.element, e.low, e.high, length_text(e.uncertainty));
   if (e.between_elements)
     text += fmt::format("; those of other elements differ by up to {}", length_text(*e.between_elements));
   return text + ". The surface is that of the mesh as it is.";

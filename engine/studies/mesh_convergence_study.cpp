@@ -14,7 +14,8 @@ int halvings_for(const std::string& element, int times) {
   return is_quadratic(element) ? std::max(times - 1, 0) : times;
 }
 
-constexpr double min_order = 0.5, max_order = 4, proven_order = 2;
+constexpr double min_order = 0.25, max_order = 4;
+constexpr double linear_order = 2, quadratic_order = 3;  // of smooth solutions
 
 void tell_energies(const Problem& problem, World& world, Json& json) {
   const Energies energies = world.energies();
@@ -66,29 +67,107 @@ std::vector<Vec3> extrapolated(const std::vector<Vec3>& coarse, const std::vecto
   return result;
 }
 
+/// From the last two of nested solutions, where the error falls with an order between low and high.
+Extrapolation between(const std::vector<std::vector<Vec3>>& x, double low, double high, const std::vector<Vec3>& rest,
+                      const std::vector<double>& mass) {
+  Extrapolation result;
+  result.low = low, result.high = high;
+  const auto by_low = extrapolated(x[x.size() - 2], x.back(), low);
+  const auto by_high = extrapolated(x[x.size() - 2], x.back(), high);
+  result.uncertainty = rms_distance(by_low, by_high, mass) / 2;
+  result.best = by_low;
+  for (std::size_t n = 0; n < rest.size(); ++n) result.best[n] = (by_low[n] + by_high[n]) / 2;
+  result.motion = rms_distance(result.best, rest, mass);
+  const std::size_t far = farthest(result.best, rest);
+  result.far = result.best[far] - rest[far];
+  return result;
+}
+
+/// The equilibria of an element that were found, from coarse to fine.
+struct Nested {
+  std::string element;               ///< name
+  std::vector<std::size_t> meshes;   ///< places in the study's list
+  std::vector<std::vector<Vec3>> x;  ///< m, at the first mesh's nodes
+  std::vector<double> potentials;    ///< J; none under loads that have none
+};
+
+ConvergenceMesh mesh_from(const Json& found, const std::string& element, int halvings) {
+  ConvergenceMesh mesh;
+  mesh.element = element, mesh.halvings = halvings;
+  mesh.nodes = found["nodes"], mesh.tets = found["tets"], mesh.seconds = found["seconds"];
+  mesh.failed = found["failed"];
+  if (!mesh.failed.empty()) return mesh;
+  mesh.stored = found["stored"];
+  mesh.potential = found.value("potential", 0.0);
+  if (found.contains("estimated")) mesh.estimated = found["estimated"];
+  return mesh;
+}
+
+void find_energy_errors(const Nested& nested, std::vector<ConvergenceMesh>& meshes) {
+  const auto limit = extrapolate(nested.potentials);
+  if (!limit) return;
+  for (const std::size_t k : nested.meshes)
+    if (const double above = meshes[k].potential - limit->best; above > 2 * limit->uncertainty)
+      meshes[k].known = 2 * above;
+}
+
+/// Of all elements the extrapolation with the smallest uncertainty.
+Extrapolation best_reference(const std::vector<Nested>& solutions, const std::vector<Vec3>& rest,
+                             const std::vector<double>& mass) {
+  std::vector<Extrapolation> all;
+  Extrapolation linear;
+  for (const Nested& nested : solutions)
+    if (nested.element == "p1") linear = extrapolate(nested.x, rest, mass);
+  for (const Nested& nested : solutions) {
+    all.push_back(is_quadratic(nested.element) ? extrapolate_quadratic(nested.x, linear, rest, mass)
+                                               : extrapolate(nested.x, rest, mass));
+    all.back().element = nested.element;
+    all.back().meshes = nested.x.size();
+  }
+  const auto succeeds = [](const Extrapolation& e) { return e.failure.empty(); };
+  Extrapolation best = all.front();
+  for (const Extrapolation& one : all)
+    if (succeeds(one) && (!succeeds(best) || one.uncertainty < best.uncertainty)) best = one;
+  if (std::count_if(all.begin(), all.end(), succeeds) > 1) best.between_elements = 0;
+  for (const Extrapolation& one : all)
+    if (succeeds(one) && best.between_elements)
+      best.between_elements = std::max(*best.between_elements, rms_distance(one.best, best.best, mass));
+  return best;
+}
+
+/// x: the mesh's equilibrium at the first mesh's nodes.
+void tell_error(ConvergenceMesh& mesh, const std::vector<Vec3>& x, const Extrapolation& reference,
+                const std::vector<Vec3>& rest, const std::vector<double>& mass) {
+  const double error = rms_distance(x, reference.best, mass);
+  mesh.resolved = error >= reference.resolution();
+  mesh.error = std::max(error, reference.resolution());
+  mesh.relative = mesh.error / reference.motion;
+  const std::size_t far = farthest(reference.best, rest);
+  mesh.far = x[far] - rest[far];
+}
+
 }  // namespace
 
 Extrapolation extrapolate(const std::vector<std::vector<Vec3>>& x, const std::vector<Vec3>& rest,
-                          const std::vector<double>& mass, std::vector<Vec3>& best) {
-  Extrapolation result;
+                          const std::vector<double>& mass) {
+  Extrapolation none;
   if (x.size() < 3) {
-    result.failure = "fewer than three meshes";
-    return result;
+    none.failure = "fewer than three meshes";
+    return none;
   }
-  const auto &u0 = x[x.size() - 3], &u1 = x[x.size() - 2], &u2 = x[x.size() - 1];
-  result.order = std::log2(rms_distance(u0, u1, mass) / rms_distance(u1, u2, mass));
-  if (!(result.order >= min_order && result.order <= max_order)) {
-    result.failure = fmt::format("three meshes converge with order {:.2g}: too irregular to go on from", result.order);
-    return result;
-  }
-  const auto as_shown = extrapolated(u1, u2, result.order), as_proven = extrapolated(u1, u2, proven_order);
-  result.uncertainty = rms_distance(as_shown, as_proven, mass) / 2;
-  best = as_shown;
-  for (std::size_t n = 0; n < best.size(); ++n) best[n] = (as_shown[n] + as_proven[n]) / 2;
-  result.motion = rms_distance(best, rest, mass);
-  const std::size_t far = farthest(best, rest);
-  result.far = best[far] - rest[far];
-  return result;
+  const auto* last = &x.back();
+  const double order = std::log2(rms_distance(last[-2], last[-1], mass) / rms_distance(last[-1], last[0], mass));
+  if (order >= min_order && order <= max_order) return between(x, order, linear_order, rest, mass);
+  none.failure = fmt::format("three meshes converge with order {:.2g}: too irregular to go on from", order);
+  return none;
+}
+
+Extrapolation extrapolate_quadratic(const std::vector<std::vector<Vec3>>& x, const Extrapolation& linear,
+                                    const std::vector<Vec3>& rest, const std::vector<double>& mass) {
+  if (x.size() >= 2 && linear.failure.empty()) return between(x, linear.low, quadratic_order, rest, mass);
+  Extrapolation none;
+  none.failure = x.size() < 2 ? "fewer than two meshes" : linear.failure;
+  return none;
 }
 
 std::optional<double> ConvergenceMesh::effectivity() const {
@@ -105,8 +184,8 @@ std::optional<Potential> extrapolate(const std::vector<double>& potentials) {
   const double *last = &potentials.back(), fall = last[-1] - last[0], ratio = (last[-2] - last[-1]) / fall;
   const double order = std::log2(ratio);  // of the squared norm: 2 asymptotically
   if (!(fall > 0) || !(order >= min_order && order <= max_order)) return std::nullopt;
-  const double as_shown = last[0] - fall / (ratio - 1), as_proven = last[0] - fall / (std::pow(2, proven_order) - 1);
-  return Potential{(as_shown + as_proven) / 2, std::abs(as_shown - as_proven) / 2};
+  const double as_shown = last[0] - fall / (ratio - 1), as_smooth = last[0] - fall / (std::pow(2, linear_order) - 1);
+  return Potential{(as_shown + as_smooth) / 2, std::abs(as_shown - as_smooth) / 2};
 }
 
 const ConvergenceMesh* MeshConvergenceStudy::find(const std::string& element, int halvings) const {
@@ -136,68 +215,32 @@ std::size_t steps_of_mesh_convergence_study(const Problem& problem, int halvings
 
 MeshConvergenceStudy study_mesh_convergence(const std::string& key, const Problem& problem, int halvings,
                                             const StudyContext& context) {
-  MeshConvergenceStudy study;
   const Problem first = *linear_base(problem);
   const auto& rest = first.setup.mesh.nodes;
-  std::vector<std::vector<Vec3>> all, best_of_element;
+  MeshConvergenceStudy study;
+  std::vector<Nested> solutions;
   for (const std::string& element : elements_of(problem)) {
+    Nested& nested = solutions.emplace_back(Nested{element, {}, {}, {}});
     Problem base = first;
-    std::vector<std::vector<Vec3>> settled;
-    std::vector<double> potentials;
-    const std::size_t first_mesh = study.meshes.size();
     for (int k = 0; k <= halvings_for(element, halvings); ++k) {
       if (k > 0) base = finer(base);
       const Problem now = with_element(base, element);
       const Json found = context.kept(fmt::format("{}|settled|{}", key, text_of(now)),
                                       [&] { return solve_statics(now, rest.size(), context.make); });
-      ConvergenceMesh& mesh = study.meshes.emplace_back();
-      mesh.element = element, mesh.halvings = k;
-      mesh.nodes = found["nodes"], mesh.tets = found["tets"], mesh.seconds = found["seconds"];
-      mesh.failed = found["failed"];
-      all.push_back(positions_from(found["x"]));
+      ConvergenceMesh& mesh = study.meshes.emplace_back(mesh_from(found, element, k));
       if (!mesh.failed.empty()) continue;
-      settled.push_back(all.back());
-      mesh.moved = rms_distance(all.back(), rest, first.mass);
-      mesh.stored = found["stored"];
-      if (found.contains("estimated")) mesh.estimated = found["estimated"];
-      if (found.contains("potential")) potentials.push_back(mesh.potential = found["potential"]);
+      nested.meshes.push_back(study.meshes.size() - 1);
+      nested.x.push_back(positions_from(found["x"]));
+      mesh.moved = rms_distance(nested.x.back(), rest, first.mass);
+      if (found.contains("potential")) nested.potentials.push_back(mesh.potential);
     }
-    if (const auto limit = element == "p1" ? extrapolate(potentials) : std::nullopt)
-      for (std::size_t k = first_mesh; k < study.meshes.size(); ++k) {
-        ConvergenceMesh& mesh = study.meshes[k];
-        if (const double above = mesh.potential - limit->best; mesh.failed.empty() && above > 2 * limit->uncertainty)
-          mesh.known = 2 * above;
-      }
-    std::vector<Vec3> best;
-    Extrapolation of_element = extrapolate(settled, rest, first.mass, best);
-    of_element.element = element;
-    const bool is_first = study.reference.element.empty(), succeeds = of_element.failure.empty();
-    if (is_first ||
-        (succeeds && (!study.reference.failure.empty() || of_element.uncertainty < study.reference.uncertainty))) {
-      study.reference = of_element;
-      study.best = best;
-    }
-    if (succeeds) best_of_element.push_back(best);
+    if (element == "p1") find_energy_errors(nested, study.meshes);
   }
-  if (best_of_element.size() > 1) {
-    double largest = 0;
-    for (const auto& best : best_of_element) largest = std::max(largest, rms_distance(best, study.best, first.mass));
-    study.reference.between_elements = largest;
-  }
-  if (!study.reference.failure.empty()) {
-    study.best.clear();
-    return study;
-  }
-  for (std::size_t k = 0; k < study.meshes.size(); ++k) {
-    ConvergenceMesh& mesh = study.meshes[k];
-    if (!mesh.failed.empty()) continue;
-    const double error = rms_distance(all[k], study.best, first.mass);
-    mesh.resolved = error >= study.reference.resolution();
-    mesh.error = std::max(error, study.reference.resolution());
-    mesh.relative = mesh.error / study.reference.motion;
-    const std::size_t far = farthest(study.best, rest);
-    mesh.far = all[k][far] - rest[far];
-  }
+  study.reference = best_reference(solutions, rest, first.mass);
+  if (study.reference.failure.empty())
+    for (const Nested& nested : solutions)
+      for (std::size_t k = 0; k < nested.x.size(); ++k)
+        tell_error(study.meshes[nested.meshes[k]], nested.x[k], study.reference, rest, first.mass);
   return study;
 }
 

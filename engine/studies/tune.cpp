@@ -61,7 +61,7 @@ void add_mesh(Tuning& tuning, const Scene& scene, const Problem& first, const Me
         const TetMesh mesh_of_nodes = quadratic ? subdivided(now.setup.mesh, now.setup.midedges) : now.setup.mesh;
         const auto there = sample_motion(mesh_of_nodes, x, first.setup.mesh.nodes);
         mesh.mesh_error =
-            std::max(rms_distance(there, convergence.best, first.mass), convergence.reference.resolution());
+            std::max(rms_distance(there, convergence.reference.best, first.mass), convergence.reference.resolution());
       }
     }
     tuning.meshes.push_back(std::move(mesh));

@@ -77,22 +77,37 @@ TEST_CASE("the Pareto front holds what nothing beats in both, ascending in cost"
 TEST_CASE("Richardson: solutions that converge with order 2 lead to their limit, and no uncertainty is left") {
   const std::vector<Vec3> rest(3, Vec3::Zero()), limit{Vec3(1, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 3)};
   const std::vector<double> mass{1, 2, 3};
-  std::vector<Vec3> best;
   const auto exact =
-      extrapolate({scaled(limit, 1 - 0.16), scaled(limit, 1 - 0.04), scaled(limit, 1 - 0.01)}, rest, mass, best);
+      extrapolate({scaled(limit, 1 - 0.16), scaled(limit, 1 - 0.04), scaled(limit, 1 - 0.01)}, rest, mass);
   CHECK(exact.failure.empty());
-  CHECK(exact.order == doctest::Approx(2));
-  CHECK(rms_distance(best, limit, mass) < 1e-12);
+  CHECK(exact.low == doctest::Approx(2));
+  CHECK(rms_distance(exact.best, limit, mass) < 1e-12);
   CHECK(exact.uncertainty < 1e-12);
   CHECK(exact.far.z() == doctest::Approx(3));
   // Order 1: the limit is the extrapolation by the observed order, and lies within the uncertainty.
-  const auto slow =
-      extrapolate({scaled(limit, 1 - 0.4), scaled(limit, 1 - 0.2), scaled(limit, 1 - 0.1)}, rest, mass, best);
-  CHECK(slow.order == doctest::Approx(1));
-  CHECK(rms_distance(best, limit, mass) <= slow.uncertainty * (1 + 1e-9));
-  const auto wild = extrapolate({scaled(limit, 1), scaled(limit, 2), scaled(limit, 4)}, rest, mass, best);
+  const auto slow = extrapolate({scaled(limit, 1 - 0.4), scaled(limit, 1 - 0.2), scaled(limit, 1 - 0.1)}, rest, mass);
+  CHECK(slow.low == doctest::Approx(1));
+  CHECK(rms_distance(slow.best, limit, mass) <= slow.uncertainty * (1 + 1e-9));
+  const auto wild = extrapolate({scaled(limit, 1), scaled(limit, 2), scaled(limit, 4)}, rest, mass);
   CHECK_FALSE(wild.failure.empty());
-  CHECK_FALSE(extrapolate({limit, limit}, rest, mass, best).failure.empty());
+  CHECK_FALSE(extrapolate({limit, limit}, rest, mass).failure.empty());
+}
+
+TEST_CASE("Richardson: two meshes of quadratic elements lead to their limit if it lies between two orders") {
+  const std::vector<Vec3> rest(3, Vec3::Zero()), limit{Vec3(1, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 3)};
+  const std::vector<double> mass{1, 2, 3};
+  Extrapolation linear;
+  linear.low = 1;
+  for (const double order : {1.0, 1.7, 3.0}) {
+    CAPTURE(order);
+    const auto two = extrapolate_quadratic({scaled(limit, 1 - 0.1), scaled(limit, 1 - 0.1 * std::pow(2, -order))},
+                                           linear, rest, mass);
+    REQUIRE(two.failure.empty());
+    CHECK(rms_distance(two.best, limit, mass) <= two.uncertainty * (1 + 1e-9));
+  }
+  CHECK_FALSE(extrapolate_quadratic({limit}, linear, rest, mass).failure.empty());
+  linear.failure = "too irregular";
+  CHECK(extrapolate_quadratic({limit, limit}, linear, rest, mass).failure == linear.failure);
 }
 
 TEST_CASE("a swing's frequency and decay are read off its turning points") {
