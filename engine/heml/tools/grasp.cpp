@@ -91,6 +91,11 @@ Vec3 GraspSpring<Real>::grip(const Real* x) const {
 }
 
 template <class Real>
+double GraspSpring<Real>::speed_at_most(const Real* x) const {
+  return static_cast<double>(omega_) / 2 * std::min((target_ - grip(x)).norm(), reach_);
+}
+
+template <class Real>
 Vec3 GraspSpring<Real>::force(const Real* x, const Real* v) const {
   const Vec3 target = clamped_target(x);
   Vec3 sum = Vec3::Zero();

@@ -52,6 +52,9 @@ class GraspSpring {
 
   /// Mean position of the patch, weighted by stiffness, m.
   Vec3 grip(const Real* x) const;
+  /// The greatest speed that the springs can give the grip, m/s: force over damping, ω d/2 at a distance d of the
+  /// target.
+  double speed_at_most(const Real* x) const;
   /// Force of the tool on the tissue, N.
   Vec3 force(const Real* x, const Real* v) const;
 

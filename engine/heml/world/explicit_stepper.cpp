@@ -76,8 +76,8 @@ std::optional<StopReason> ExplicitStepper<Real>::advance(double until, long most
 template <class Real>
 void ExplicitStepper<Real>::refresh_stable_step() {
   const bool has_torn = !s_.edits.empty() && s_.edits.back().torn > 0;  // torn pieces are released under tension
-  const bool is_driven = !s_.grasps.empty() || s_.contacts.probe || has_torn;
-  const int most = is_driven ? steps_between_bounds_when_driven : steps_until_supports_strain(s_);
+  const bool is_driven = s_.contacts.probe || has_torn;
+  const int most = is_driven ? steps_between_bounds_when_driven : steps_until_strained(s_);
   if (++s_.limit.steps_since_bound >= std::min(s_.limit.interval, most)) update_stable_step(s_);
 }
 

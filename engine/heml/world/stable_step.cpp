@@ -100,20 +100,21 @@ void update_stable_step(Simulation<Real>& s) {
 }
 
 template <class Real>
-int steps_until_supports_strain(const Simulation<Real>& s) {
+int steps_until_strained(const Simulation<Real>& s) {
   if (!(s.limit.stable > 0)) return steps_between_bounds_when_driven;
   double fastest = 0;
   for (std::size_t k = 0; k < s.model->prescribed_motions.size(); ++k)
     if (s.state.time < s.model->prescribed_motions[k].ramp_time) fastest = std::max(fastest, s.model->speeds[k]);
+  for (const auto& grasp : s.grasps) fastest = std::max(fastest, grasp.speed_at_most(s.state.x.data()));
   const double steps = change_between_bounds * s.model->spacing / (fastest * s.limit.stable);
   return static_cast<int>(std::clamp<double>(steps, steps_between_bounds_when_driven, steps_between_bounds_when_calm));
 }
 
 template void find_stable_step(Simulation<float>& s);
 template void update_stable_step(Simulation<float>& s);
-template int steps_until_supports_strain(const Simulation<float>& s);
+template int steps_until_strained(const Simulation<float>& s);
 template void find_stable_step(Simulation<double>& s);
 template void update_stable_step(Simulation<double>& s);
-template int steps_until_supports_strain(const Simulation<double>& s);
+template int steps_until_strained(const Simulation<double>& s);
 
 }  // namespace heml

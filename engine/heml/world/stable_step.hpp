@@ -15,11 +15,11 @@ void find_stable_step(Simulation<Real>& s);
 template <class Real>
 void update_stable_step(Simulation<Real>& s);
 
-/// Steps in which the fastest prescribed motion strains the elements next to it by as much as the bound may change
-/// between two evaluations.
+/// Steps in which the fastest hand or prescribed motion strains the elements next to it by as much as the bound may
+/// change between two evaluations.
 template <class Real>
-int steps_until_supports_strain(const Simulation<Real>& s);
+int steps_until_strained(const Simulation<Real>& s);
 
-inline constexpr int steps_between_bounds_when_driven = 2;  ///< a tool can deform a body quickly
+inline constexpr int steps_between_bounds_when_driven = 2;  ///< by a probe, say, which deforms it quickly
 
 }  // namespace heml

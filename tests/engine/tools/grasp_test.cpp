@@ -49,6 +49,30 @@ TEST_CASE("a grasped mass follows the tool without overshoot") {
   CHECK(at[0] == doctest::Approx(1).epsilon(1e-6));
 }
 
+TEST_CASE("a grasp moves nodes no faster than it says") {
+  const double omega = 50, h = 1e-4;
+  std::vector<double> at = {0, 0, 0}, v = {0, 0, 0};
+  GraspSpring<double> grasp({}, 0, 0, std::vector<int>{0}, {Vec3::Zero()}, at.data(), {2.0}, omega, 0.5);
+  double told = 0, fastest = 0;
+  for (int k = 0; k < 4000; ++k) {
+    if (k == 1000) grasp.move(Vec3(1, 0, 0));                      // jumps out of reach
+    if (k > 2000) grasp.move(grasp.target() + Vec3(0, 2 * h, 0));  // 2 m/s
+    told = std::max(told, grasp.speed_at_most(at.data()));
+    std::vector<double> f(3, 0.0);
+    grasp.add_forces(at.data(), v.data(), f.data());
+    for (std::size_t i = 0; i < 3; ++i) {
+      v[i] += h * 2.0 * f[i];
+      at[i] += h * v[i];
+    }
+    const double speed = std::hypot(v[0], v[1], v[2]);
+    CHECK(speed <= told * (1 + 1e-9));
+    fastest = std::max(fastest, speed);
+    if (k == 1000) CHECK(told == doctest::Approx(omega * 0.5 / 2));
+    if (k == 3999) CHECK(speed == doctest::Approx(grasp.speed_at_most(at.data())).epsilon(0.01));  // drawn steadily
+  }
+  CHECK(fastest > told / 2);
+}
+
 TEST_CASE("beyond its reach a grasp slips and the force stays constant") {
   GraspSpring<double> grasp({}, 0, 0, std::vector<int>{0}, {Vec3::Zero()}, x.data(), {1.0}, 100, 0.02);
   grasp.move(Vec3(0.015, 0, 0));

@@ -61,7 +61,7 @@ TEST_CASE("stable step: however a hand jerks, that of the elements looked at is 
         oldest = std::max(oldest, world->stable_step() / of_all_elements(*world, setup));
       }
       CHECK(widest < 1.02);     // as much as they may change between two evaluations
-      CHECK(oldest < 1 / 0.9);  // evaluated a step or two ago: the safety covers that
+      CHECK(oldest < 1 / 0.9);  // evaluated some steps ago: the safety covers that
       MESSAGE("at most " << widest << " of the step that all elements allow, " << oldest << " of it a moment later");
     }
 }
