@@ -86,6 +86,15 @@ void print_choice(const Explanation& explained) {
                step.tick * *method.lowest_frequency, method.resolved);
 }
 
+std::string stable_step_text(const Explanation& explained) {
+  const WorldFacts& world = explained.world;
+  if (!(world.step.stable > 0))
+    return fmt::format("none: the stiffness of the body is no number that {} precision can hold",
+                       explained.setup.solver.single_precision ? "single" : "double");
+  return fmt::format("{:.4g} ms for explicit methods now; {:.3g} of real time by the cost model",
+                     1e3 * world.step.stable, world.method.explicit_share);
+}
+
 void print_method(const Explanation& explained) {
   const WorldFacts& world = explained.world;
   const StepFacts& step = world.step;
@@ -103,8 +112,7 @@ void print_method(const Explanation& explained) {
   else
     print_line("tick", "{:.4g} ms, {} step{}", 1e3 * step.tick, step.steps_per_tick,
                step.steps_per_tick == 1 ? "" : "s");
-  print_line("stable step", "{:.4g} ms for explicit methods now; {:.3g} of real time by the cost model",
-             1e3 * step.stable, world.method.explicit_share);
+  print_line("stable step", "{}", stable_step_text(explained));
   if (world.method.lowest_frequency)
     print_line("lowest frequency", "{:.3g} Hz at rest", *world.method.lowest_frequency / (2 * std::numbers::pi));
   if (limit.element < 0) return;

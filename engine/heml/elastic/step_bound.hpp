@@ -71,15 +71,16 @@ template <class Real>
   Real AGA[6];  // F g_a·F g_b
   product_AGA(rest.A, kinematics.AG, AGA);
   CornerSums<Real> sums{4 * over_corners(AGA, weights), 0, 0};
+  const Real of_cross = 1 / (6 * rest.volume);  // first, since V² of an element of a micrometre is no float
   for (int i = 0; i < 3; ++i) {
     Real sum = 0;
     for (int a = 0; a < 3; ++a) {
-      sums.nJ += w[a + 1] * kinematics.cross[a][i] * kinematics.cross[a][i];
-      sum += kinematics.cross[a][i];
+      const Real dJ = of_cross * kinematics.cross[a][i];
+      sums.nJ += w[a + 1] * dJ * dJ;
+      sum += dJ;
     }
     sums.nJ += w[0] * sum * sum;
   }
-  sums.nJ /= 36 * rest.volume * rest.volume;
   const Real total = rest.fibre[0] + rest.fibre[1] + rest.fibre[2];
   for (int a = 0; a < 3; ++a) sums.m += w[a + 1] * rest.fibre[a] * rest.fibre[a];
   sums.m += w[0] * total * total;

@@ -79,8 +79,9 @@ std::vector<MemoryFacts> WorldQueries<Real>::memory_facts(std::optional<std::siz
   if (!s_.implicit) return facts;
   const ImplicitState<Real>& parts = *s_.implicit;
   facts.push_back({"factors", parts.linear.bytes()});
-  facts.push_back({"solver vectors", bytes_of(parts.free.number, parts.free.node) +
-                                         bytes_of(parts.mass, parts.x, parts.v, parts.x_before, parts.v_before)});
+  facts.push_back(
+      {"solver vectors", bytes_of(parts.free.number, parts.free.node) +
+                             bytes_of(parts.mass, parts.x, parts.v, parts.x_before, parts.v_before, parts.unbalanced)});
   return facts;
 }
 

@@ -91,6 +91,7 @@ ImplicitSnapshot<Real> ImplicitState<Real>::snapshot() const {
           x_before,
           v_before,
           h_before,
+          unbalanced,
           linear.snapshot(),
           equilibrium ? std::optional(equilibrium->snapshot()) : std::nullopt};
 }
@@ -102,6 +103,7 @@ void ImplicitState<Real>::restore(const ImplicitSnapshot<Real>& snapshot) {
   x_before = snapshot.x_before;
   v_before = snapshot.v_before;
   h_before = snapshot.h_before;
+  unbalanced = snapshot.unbalanced;
   linear.restore(snapshot.linear);
   if (snapshot.equilibrium) equilibrium.emplace(body, linear, mass, free, *snapshot.equilibrium);
 }

@@ -16,6 +16,7 @@ struct ImplicitSnapshot {
   typename BodyObjective<Real>::Snapshot body;
   Vector x_before, v_before;
   double h_before = 0;
+  Vector unbalanced;
   LinearSolver::Snapshot linear;
   std::optional<StaticSolve::Snapshot> equilibrium;
 };
@@ -33,6 +34,7 @@ struct ImplicitState {
   Vector x, v;                ///< 3 #V, the state in double
   Vector x_before, v_before;  ///< one step earlier, for BDF2
   double h_before = 0;        ///< s; 0: there was none
+  Vector unbalanced;          ///< 3 #V, N, what the last solve of that step left of forces less inertia
   std::optional<StaticSolve> equilibrium;
 
   /// modulus: #T, Pa. All references must outlive this.

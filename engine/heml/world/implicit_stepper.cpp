@@ -18,6 +18,7 @@ constexpr double earth = 9.81;               // m/s²
 constexpr int max_probe_substeps = 64;       // of a probe in a step
 constexpr double slack_of_energy = 1e-10;    // of a step's energy: what it may gain
 constexpr double round_off_fraction = 1e-2;  // of the bound on the round-off of energies: what sums of elements reach
+constexpr double resolved = 4;               // (ω h)² of motions that a step of h can follow
 constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
 
 // Of an iteration, a tetrahedron, one core: the stiffness, a dozen products and back-solves, two forces and values. For
@@ -39,7 +40,9 @@ std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
     const double after = last ? until : s_.state.time + longest;
     const long iterations_before = s_.stats.iterations;
     const double h = after - s_.state.time;
-    if (step(s_.method, h, after) || lagging_step(h, after) || damped_step(h, after)) {
+    const Integrator method = is_noisy(h, after) ? Integrator::backward_euler : s_.method;
+    if (step(method, h, after) || lagging_step(h, after) || damped_step(h, after)) {
+      if (method != s_.method) ++s_.stats.damped_steps;
       ++s_.substeps;
       continue;
     }
@@ -84,11 +87,14 @@ class ImplicitStepper<Real>::StagedStep final : public ImplicitStep {
   bool solve(const Stage& stage, double h_end) override {
     return stepper_.solve_stage(stage, h_end, h_end == h ? end_ : start_ + h_end, x, v);
   }
+  /// That by which the last step ended, and of what acts since. Forces alone have in them what a solve left unbalanced,
+  /// which moves stiff elements at once (after Hosea & Shampine 1996).
   Vector acceleration() const override {
     const Simulation<Real>& s = stepper_.s_;
-    const Vector f = as_vector(s.state.f);
-    const Vector& mass = s.implicit->mass;
-    const Vector of_forces = (mass.array() > 0).select(f.array() / mass.array(), 0);
+    const ImplicitState<Real>& parts = *s.implicit;
+    Vector f = as_vector(s.state.f);
+    if (parts.h_before > 0) f -= parts.unbalanced;
+    const Vector of_forces = (parts.mass.array() > 0).select(f.array() / parts.mass.array(), 0);
     return of_forces - s.setup->solver.damping * *v_start;
   }
 
@@ -119,6 +125,23 @@ bool ImplicitStepper<Real>::damped_step(double h, double time_after) {
   if (!step(Integrator::backward_euler, h, time_after)) return false;
   ++s_.stats.damped_steps;
   return true;
+}
+
+/// Whether most of the velocity is what incomplete solves have left in stiff elements: flying on for h would strain
+/// the body as modes of ω h > 2 do. Methods of two stages carry that on from step to step; one by backward Euler damps
+/// it. Asked under a budget, of bodies whose potential tells.
+template <class Real>
+bool ImplicitStepper<Real>::is_noisy(double h, double time_after) {
+  if (!s_.setup->solver.budget || info_of(s_.method).stages < 2) return false;
+  if (s_.has_internal_state || !s_.contacts.empty()) return false;
+  ImplicitState<Real>& parts = s_.implicit_state();
+  const Vector x = as_vector(s_.state.x), v = as_vector(s_.state.v);
+  parts.body.set_time(time_after, s_.setup->gravity);
+  parts.body.move_tools(time_after);
+  const auto here = parts.body.value(x), there = parts.body.value(x + h * v);
+  Vector f;
+  if (!here || !parts.body.residual(x, f)) return false;
+  return !there || *there - *here + h * f.dot(v) > resolved * kinetic(v);
 }
 
 /// A step that does not converge with plastic flow in it, with flow after it: the stress it ends at is of the flow
@@ -159,6 +182,7 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
   parts.x_before = parts.x;
   parts.v_before = parts.v;
   parts.h_before = h;
+  parts.unbalanced = residual_;
   s_.set_state(x, v, time_after);
   if (s_.has_internal_state) {
     s_.body.commit(s_.state.x.data());
@@ -199,16 +223,15 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
     }
     if (is_lagging) break;
   }
-  Vector r;
-  parts.step.residual(x, r);
-  s_.stats.residual = parts.body.relative_residual(r);
+  parts.step.residual(x, residual_);
+  s_.stats.residual = parts.body.relative_residual(residual_);
   undefined_at_.clear();
   if (result.status == NewtonResult::Status::undefined) {
     for (const double value : x) undefined_at_.push_back(static_cast<Real>(value));
     return false;
   }
   if (is_lagging) return false;
-  if (!result.converged() && !takes_any_iterate() && !is_balanced_enough(stage, r)) return false;
+  if (!result.converged() && !takes_any_iterate() && !is_balanced_enough(stage, residual_)) return false;
   v = stage.velocity(x);
   for (const ConstrainedNode& constrained : s_.model->constrained)
     set_along(constrained.axes, constrained.node, prescribed_at(*s_.model, constrained, time).v, v);
@@ -361,9 +384,8 @@ void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vecto
   }
   const double moving = kinetic(v), left = std::max(may - has, 0.0);
   if (moving > left) v = (parts.mass.array() > 0).select(std::sqrt(left / moving) * v, v);
-  Vector r;
-  parts.step.residual(x, r);  // forces are taken from what the objective saw last
-  s_.stats.residual = parts.body.relative_residual(r);
+  parts.step.residual(x, residual_);  // forces are taken from what the objective saw last
+  s_.stats.residual = parts.body.relative_residual(residual_);
 }
 
 template <class Real>

@@ -35,6 +35,7 @@ class ImplicitStepper {
   bool step(Integrator method, double h, double time_after);
   bool lagging_step(double h, double time_after);
   bool damped_step(double h, double time_after);
+  bool is_noisy(double h, double time_after);
   bool take_back_gain(double time, const Vector& x, Vector& v);
   double kinetic(const Vector& v) const;
   bool takes_any_iterate() const { return s_.setup->solver.budget || takes_best_; }
@@ -49,6 +50,7 @@ class ImplicitStepper {
   std::string why_unbalanced() const;
 
   Simulation<Real>& s_;
+  Vector residual_;                 ///< 3 #V, N, of the stage solved last
   bool takes_best_ = false;         ///< a stage ends with its best iterate, as under a budget
   std::vector<Real> undefined_at_;  ///< 3 #V, start of the last stage whose forces were undefined; empty: defined
   std::shared_ptr<PreconditionerBuild> preconditioner_build_;  ///< given out last

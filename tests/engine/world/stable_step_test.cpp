@@ -66,4 +66,22 @@ TEST_CASE("stable step: however a hand jerks, that of the elements looked at is 
     }
 }
 
+TEST_CASE("stable step: it grows with the body, from a micrometre to ten metres, also in float") {
+  const auto step_of = [](double size, bool single) {
+    WorldSetup setup;
+    setup.mesh = make_box(Vec3(size, size, size), {4, 4, 4});
+    setup.materials = {{std::nullopt, soft()}};
+    setup.solver.single_precision = single;
+    setup.solver.threads = 1;
+    return make_world(setup)->stable_step();
+  };
+  const double of_a_metre = step_of(1, false);
+  for (const bool single : {false, true})
+    for (const double size : {1e-6, 1e-5, 1e-3, 0.1, 10.0}) {
+      CAPTURE(single);
+      CAPTURE(size);
+      CHECK(step_of(size, single) == doctest::Approx(of_a_metre * size).epsilon(1e-3));
+    }
+}
+
 }  // namespace heml::stable_step_test
