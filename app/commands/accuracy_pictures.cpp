@@ -76,6 +76,38 @@ panel::Chart work_precision(const SceneStudy& scene, const TimeStudy& study) {
   return chart;
 }
 
+/// The whole error by element: what a mesh and a method give together, for what they cost.
+panel::Chart element_comparison(const SceneStudy& scene) {
+  panel::Chart chart;
+  chart.title = scene.title;
+  chart.subtitle =
+      fmt::format("{} tetrahedra by element; one mark per method, lower left is better", scene.time.front().tets);
+  chart.x_label = "Computing time per simulated second, s";
+  chart.y_quantity = "Time error + discretisation error, mm";
+  chart.logarithmic = true;
+  chart.vertical = {{1, "16 ms: real time"}, {0.033 / seconds_per_frame, "33 ms"}};
+  std::vector<CostAndError> all;
+  for (std::size_t k = 0; k < scene.time.size(); ++k) {
+    const TimeStudy& study = scene.time[k];
+    const auto of_mesh = scene.mesh_error(study.element);
+    if (!of_mesh) continue;
+    const ImU32 ink = inks[k % std::size(inks)];
+    panel::ChartSeries dots{study.element, {}, ink, ChartMark::dots}, rings{"", {}, ink, ChartMark::rings};
+    for (const Measured& m : study.measured) {
+      if (m.failed()) continue;
+      all.push_back({cost(m), m.error + *of_mesh});
+      (m.method.iterations > 0 ? rings : dots).points.push_back({all.back().cost, 1e3 * all.back().error});
+    }
+    chart.series.push_back(std::move(dots));
+    chart.series.push_back(std::move(rings));
+  }
+  panel::ChartSeries front{"Pareto front", {}, front_colour, ChartMark::line, 1.6f};
+  for (const std::size_t k : pareto_front(all)) front.points.push_back({all[k].cost, 1e3 * all[k].error});
+  chart.series.insert(chart.series.begin(), std::move(front));
+  chart.series.push_back({"iteration budget", {}, grey, ChartMark::rings});
+  return chart;
+}
+
 ChartMark mark_of(const std::string& element) {
   if (is_quadratic(element)) return ChartMark::crosses;
   return element == "p1" ? ChartMark::dots : ChartMark::rings;
@@ -153,7 +185,12 @@ panel::BarChart feature_bars(const FeatureStudy& study) {
 
 std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& folder, const AccuracyStudy& study) {
   std::vector<ReportPicture> pictures;
-  for (const SceneStudy& scene : study.scenes)
+  for (const SceneStudy& scene : study.scenes) {
+    if (scene.time.size() > 1 && scene.convergence.reference.failure.empty()) {
+      const auto file = folder / fmt::format("{}_elements.png", scene.name);
+      write_chart(file, element_comparison(scene));
+      pictures.push_back({scene.name, file, fmt::format("{}: the whole error by element.", scene.title)});
+    }
     for (const TimeStudy& time : scene.time) {
       if (time.measured.empty()) continue;
       const auto file = folder / fmt::format("{}_{}.png", scene.name, time.element);
@@ -163,6 +200,7 @@ std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& 
                                       "gain nothing from smaller steps: the discretisation error is larger.",
                                       scene.title, time.problem)});
     }
+  }
   if (!study.locking.empty()) {
     write_chart(folder / "locking.png", locking_chart(study.locking));
     pictures.push_back(

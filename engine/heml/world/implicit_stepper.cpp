@@ -87,13 +87,13 @@ class ImplicitStepper<Real>::StagedStep final : public ImplicitStep {
   bool solve(const Stage& stage, double h_end) override {
     return stepper_.solve_stage(stage, h_end, h_end == h ? end_ : start_ + h_end, x, v);
   }
-  /// That by which the last step ended, and of what acts since. Forces alone have in them what a solve left unbalanced,
-  /// which moves stiff elements at once (after Hosea & Shampine 1996).
+  /// That of all forces; under a budget, less what the last solve left unbalanced, which would throw stiff elements
+  /// (after Hosea & Shampine 1996, who take the derivative that the last stage ended with).
   Vector acceleration() const override {
     const Simulation<Real>& s = stepper_.s_;
     const ImplicitState<Real>& parts = *s.implicit;
     Vector f = as_vector(s.state.f);
-    if (parts.h_before > 0) f -= parts.unbalanced;
+    if (s.setup->solver.budget && parts.h_before > 0) f -= parts.unbalanced;
     const Vector of_forces = (parts.mass.array() > 0).select(f.array() / parts.mass.array(), 0);
     return of_forces - s.setup->solver.damping * *v_start;
   }
@@ -128,11 +128,11 @@ bool ImplicitStepper<Real>::damped_step(double h, double time_after) {
 }
 
 /// Whether most of the velocity is what incomplete solves have left in stiff elements: flying on for h would strain
-/// the body as modes of ω h > 2 do. Methods of two stages carry that on from step to step; one by backward Euler damps
-/// it. Asked under a budget, of bodies whose potential tells.
+/// the body as modes of ω h > 2 do. The trapezoidal rule turns that round from step to step; one step of backward Euler
+/// damps it. Asked under a budget, of bodies whose potential tells.
 template <class Real>
 bool ImplicitStepper<Real>::is_noisy(double h, double time_after) {
-  if (!s_.setup->solver.budget || info_of(s_.method).stages < 2) return false;
+  if (!s_.setup->solver.budget || s_.method != Integrator::tr_bdf2) return false;
   if (s_.has_internal_state || !s_.contacts.empty()) return false;
   ImplicitState<Real>& parts = s_.implicit_state();
   const Vector x = as_vector(s_.state.x), v = as_vector(s_.state.v);
