@@ -141,7 +141,8 @@ bool ImplicitStepper<Real>::is_noisy(double h, double time_after) {
   const auto here = parts.body.value(x), there = parts.body.value(x + h * v);
   Vector f;
   if (!here || !parts.body.residual(x, f)) return false;
-  return !there || *there - *here + h * f.dot(v) > resolved * kinetic(v);
+  const double round_off = round_off_fraction * parts.body.value_round_off();
+  return !there || *there - *here + h * f.dot(v) > resolved * kinetic(v) + round_off;
 }
 
 /// A step that does not converge with plastic flow in it, with flow after it: the stress it ends at is of the flow
