@@ -14,7 +14,7 @@ int halvings_for(const std::string& element, int times) {
   return is_quadratic(element) ? std::max(times - 1, 0) : times;
 }
 
-constexpr double min_order = 0.25, max_order = 4;
+constexpr double min_order = 0.25, min_energy_order = 0.5, max_order = 4;
 constexpr double linear_order = 2, quadratic_order = 3;  // of smooth solutions
 
 void tell_energies(const Problem& problem, World& world, Json& json) {
@@ -164,7 +164,9 @@ Extrapolation extrapolate(const std::vector<std::vector<Vec3>>& x, const std::ve
 
 Extrapolation extrapolate_quadratic(const std::vector<std::vector<Vec3>>& x, const Extrapolation& linear,
                                     const std::vector<Vec3>& rest, const std::vector<double>& mass) {
-  if (x.size() >= 2 && linear.failure.empty()) return between(x, linear.low, quadratic_order, rest, mass);
+  // Coarse meshes may show more than 2 by chance, from which no certainty follows.
+  if (x.size() >= 2 && linear.failure.empty())
+    return between(x, std::min(linear.low, linear_order), quadratic_order, rest, mass);
   Extrapolation none;
   none.failure = x.size() < 2 ? "fewer than two meshes" : linear.failure;
   return none;
@@ -183,7 +185,7 @@ std::optional<Potential> extrapolate(const std::vector<double>& potentials) {
   if (potentials.size() < 3) return std::nullopt;
   const double *last = &potentials.back(), fall = last[-1] - last[0], ratio = (last[-2] - last[-1]) / fall;
   const double order = std::log2(ratio);  // of the squared norm: 2 asymptotically
-  if (!(fall > 0) || !(order >= min_order && order <= max_order)) return std::nullopt;
+  if (!(fall > 0) || !(order >= min_energy_order && order <= max_order)) return std::nullopt;
   const double as_shown = last[0] - fall / (ratio - 1), as_smooth = last[0] - fall / (std::pow(2, linear_order) - 1);
   return Potential{(as_shown + as_smooth) / 2, std::abs(as_shown - as_smooth) / 2};
 }

@@ -9,8 +9,8 @@
 // Where clamps end on a smooth surface the solution is singular and the order of any element is 1.
 //
 // Quadratic elements, of which a mesh has as many nodes as the next of linear ones, take one subdivision less: two
-// meshes, extrapolated with the order of p1, which theirs is never below, and with 3. Their u* is mostly the better one
-// (a beam: 0.2 % of the motion against 18 %). Errors are measured from the u* with the smallest uncertainty.
+// meshes, extrapolated with the order of p1, at most 2, which theirs is never below, and with 3. Their u* is mostly the
+// better one (a beam: 0.2 % of the motion against 18 %). Errors are measured from the u* with the smallest uncertainty.
 //
 // The error estimate of the panel (elastic/error_estimate.hpp) is compared with the energy norm of the error, which
 // follows from the potential Π at equilibrium: ‖u − u_h‖² = 2 (Π_h − Π*) to leading order, Π* extrapolated like u*.
@@ -67,7 +67,7 @@ Extrapolation extrapolate_quadratic(const std::vector<std::vector<Vec3>>& x, con
                                     const std::vector<Vec3>& rest, const std::vector<double>& mass);
 
 /// Π* of nested meshes (three or more) and half the difference of its two extrapolations, both J; none if Π does not
-/// fall with an order from 0.25 to 4.
+/// fall with an order from 0.5 to 4.
 struct Potential {
   double best, uncertainty;
 };

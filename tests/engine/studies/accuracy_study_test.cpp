@@ -105,6 +105,9 @@ TEST_CASE("Richardson: two meshes of quadratic elements lead to their limit if i
     REQUIRE(two.failure.empty());
     CHECK(rms_distance(two.best, limit, mass) <= two.uncertainty * (1 + 1e-9));
   }
+  linear.low = 3;  // by chance
+  const auto two = extrapolate_quadratic({scaled(limit, 1 - 0.1), scaled(limit, 1 - 0.025)}, linear, rest, mass);
+  CHECK(rms_distance(two.best, limit, mass) <= two.uncertainty * (1 + 1e-9));
   CHECK_FALSE(extrapolate_quadratic({limit}, linear, rest, mass).failure.empty());
   linear.failure = "too irregular";
   CHECK(extrapolate_quadratic({limit, limit}, linear, rest, mass).failure == linear.failure);
