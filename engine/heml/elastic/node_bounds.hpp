@@ -8,9 +8,9 @@
 //
 // A node whose bound was far below the maximum cannot have reached it since: only those that may have are evaluated
 // again, with all elements round them. A node is due
-// - where 2 · age · growth ≥ largest − bound, so always the largest; growth: the fastest that a bound was seen to grow,
-// a
-//   step, among the neighbours in inner order, or a quarter of the fastest elsewhere, from where waves take some steps;
+// - where 2 · age · growth ≥ largest − bound, so always the largest; growth:
+//   the fastest that a bound was seen to grow, a step, among the neighbours in inner order, or a quarter of the fastest
+//   elsewhere, from where waves take some steps;
 // - at max_age;
 // - where it is watched: something acts on its elements, whose bounds may grow without notice.
 #include <cstddef>
