@@ -17,14 +17,7 @@ struct PointForceKernel {
   using Block = PointBlock<Real>;
   using Part = Four<Real>;
   static constexpr std::size_t lanes = P::lanes, parts = lanes / 4, constants = L::uses_I4 ? 10 : 7;
-  static_assert(parts == 1 || parts == 2);
-
-  /// node_between()
-  static constexpr std::size_t own_node[4][4] = {
-      {node_between(0, 0), node_between(0, 1), node_between(0, 2), node_between(0, 3)},
-      {node_between(1, 0), node_between(1, 1), node_between(1, 2), node_between(1, 3)},
-      {node_between(2, 0), node_between(2, 1), node_between(2, 2), node_between(2, 3)},
-      {node_between(3, 0), node_between(3, 1), node_between(3, 2), node_between(3, 3)}};
+  static_assert(parts == 1 || parts == 2 || parts == 4);
 
   /// Quantities of the elements in the lanes.
   struct Elements {
@@ -34,19 +27,51 @@ struct PointForceKernel {
     P shared[4][3];                   ///< what corner i of every point shares (quadratic_map.hpp)
   };
 
-  [[gnu::always_inline]] static inline P joined(const Part* part) {
+  using Vector = typename P::Vector;
+
+  /// One row of each part side by side.
+  [[gnu::always_inline]] static inline Vector joined(const Part (&row)[parts]) {
     if constexpr (parts == 1)
-      return P(static_cast<typename P::Vector>(part[0]));
-    else
-      return P(static_cast<typename P::Vector>(__builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7)));
+      return static_cast<Vector>(row[0]);
+    else if constexpr (parts == 2)
+      return static_cast<Vector>(__builtin_shufflevector(row[0], row[1], 0, 1, 2, 3, 4, 5, 6, 7));
+    else {
+      const auto low = __builtin_shufflevector(row[0], row[1], 0, 1, 2, 3, 4, 5, 6, 7);
+      const auto high = __builtin_shufflevector(row[2], row[3], 0, 1, 2, 3, 4, 5, 6, 7);
+      return static_cast<Vector>(
+          __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+    }
   }
 
-  template <std::size_t part>
-  [[gnu::always_inline]] static inline Part part_of(const P& p) {
-    if constexpr (parts == 1)
-      return static_cast<Part>(p.v);
-    else
-      return static_cast<Part>(__builtin_shufflevector(p.v, p.v, 4 * part, 4 * part + 1, 4 * part + 2, 4 * part + 3));
+  /// In each part rows[i][j] becomes rows[j][i].
+  [[gnu::always_inline]] static inline void transpose_parts(Vector (&rows)[4]) {
+    if constexpr (parts == 1) {
+      transpose(rows);
+    } else {
+      const auto pairs = [](const Vector& a, const Vector& b, Vector& even, Vector& odd) {
+        if constexpr (parts == 2) {
+          even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+          odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+        } else {
+          even = __builtin_shufflevector(a, b, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
+          odd = __builtin_shufflevector(a, b, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
+        }
+      };
+      const auto halves = [](const Vector& a, const Vector& b, Vector& low, Vector& high) {
+        if constexpr (parts == 2) {
+          low = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+          high = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+        } else {
+          low = __builtin_shufflevector(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29);
+          high = __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
+        }
+      };
+      Vector even01, odd01, even23, odd23;
+      pairs(rows[0], rows[1], even01, odd01);
+      pairs(rows[2], rows[3], even23, odd23);
+      halves(even01, even23, rows[0], rows[2]);
+      halves(odd01, odd23, rows[1], rows[3]);
+    }
   }
 
   [[gnu::always_inline]] static inline P pack_at(const Real* values) {
@@ -60,7 +85,18 @@ struct PointForceKernel {
     if constexpr (parts == 1) {
       Part rows[4] = {read_four(values), read_four(values + 4), read_four(values + 8), read_four(values + 12)};
       transpose(rows);
-      for (std::size_t q = 0; q < 4; ++q) of_point[q].v = static_cast<typename P::Vector>(rows[q]);
+      for (std::size_t q = 0; q < 4; ++q) of_point[q].v = static_cast<Vector>(rows[q]);
+    } else if constexpr (parts == 4) {
+      const auto a = pack_at(values).v, b = pack_at(values + 16).v, c = pack_at(values + 32).v,
+                 d = pack_at(values + 48).v;
+      const auto ab01 = __builtin_shufflevector(a, b, 0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25, 29);
+      const auto ab23 = __builtin_shufflevector(a, b, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
+      const auto cd01 = __builtin_shufflevector(c, d, 0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25, 29);
+      const auto cd23 = __builtin_shufflevector(c, d, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
+      of_point[0].v = __builtin_shufflevector(ab01, cd01, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
+      of_point[1].v = __builtin_shufflevector(ab01, cd01, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
+      of_point[2].v = __builtin_shufflevector(ab23, cd23, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
+      of_point[3].v = __builtin_shufflevector(ab23, cd23, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
     } else {
       const auto a = pack_at(values).v, b = pack_at(values + 8).v, c = pack_at(values + 16).v,
                  d = pack_at(values + 24).v;
@@ -77,18 +113,17 @@ struct PointForceKernel {
 
   [[gnu::always_inline]] static inline void read_positions(const Real* records, Elements& of) {
     for (std::size_t a = 0; a < 10; ++a) {
-      Part axis[3][parts];
-#pragma GCC unroll 2
-      for (std::size_t k = 0; k < parts; ++k) {
-        Part rows[4];
+      Vector rows[4];
 #pragma GCC unroll 4
-        for (std::size_t l = 0; l < 4; ++l) rows[l] = read_four(records + of.index[4 * k + l][a]);
-        transpose(rows);
-#pragma GCC unroll 3
-        for (std::size_t i = 0; i < 3; ++i) axis[i][k] = rows[i];
+      for (std::size_t l = 0; l < 4; ++l) {
+        Part row[parts];
+#pragma GCC unroll 4
+        for (std::size_t k = 0; k < parts; ++k) row[k] = read_four(records + of.index[4 * k + l][a]);
+        rows[l] = joined(row);
       }
+      transpose_parts(rows);
 #pragma GCC unroll 3
-      for (std::size_t i = 0; i < 3; ++i) of.at[a][i] = a == 0 ? joined(axis[i]) : joined(axis[i]) - of.at[0][i];
+      for (std::size_t i = 0; i < 3; ++i) of.at[a][i] = a == 0 ? P(rows[i]) : P(rows[i]) - of.at[0][i];
     }
 #pragma GCC unroll 3
     for (std::size_t i = 0; i < 3; ++i) of.at[0][i] = P(0);
@@ -100,7 +135,7 @@ struct PointForceKernel {
         P midedges(0);
 #pragma GCC unroll 4
         for (std::size_t d = 0; d < 4; ++d)
-          if (d != c) midedges += of.at[own_node[c][d]][i];
+          if (d != c) midedges += of.at[node_between[c][d]][i];
         of.shared[c][i] = of_corner * of.at[c][i] + of_midedge * midedges;
       }
   }
@@ -110,16 +145,19 @@ struct PointForceKernel {
 #pragma GCC unroll 4
     for (std::size_t c = 0; c < 4; ++c)
 #pragma GCC unroll 3
-      for (std::size_t i = 0; i < 3; ++i) y[c][i] = of.shared[c][i] + own * of.at[own_node[q][c]][i];
+      for (std::size_t i = 0; i < 3; ++i) y[c][i] = of.shared[c][i] + own * of.at[node_between[q][c]][i];
   }
 
   /// κ̄ (J̄ − 1).
-  [[gnu::always_inline]] static inline P mean_pressure(const ElementKinematics<P> (&of_point)[4],
-                                                       const RestShape<P> (&rest)[4], const P& kappa) {
+  [[gnu::always_inline]] static inline P mean_pressure(const Elements& of, const RestShape<P> (&rest)[4],
+                                                       const P& kappa) {
     P whole(0), deformed(0);
+#pragma GCC unroll 1
     for (std::size_t q = 0; q < 4; ++q) {
+      P y[4][3];
+      virtual_corners(of, q, y);
       whole += rest[q].volume;
-      deformed += rest[q].volume * of_point[q].at.J;
+      deformed += rest[q].volume * element_kinematics<false, true, false, false>(y[0], y[1], y[2], y[3], rest[q]).at.J;
     }
     return kappa * (deformed / whole - P(1));
   }
@@ -134,23 +172,32 @@ struct PointForceKernel {
     }
   }
 
-  /// Adds what the points pull at the ten nodes to their records, one lane after the other.
+  [[gnu::always_inline]] static inline void add_four(const Real (&of_lane)[10][4][lanes], const Elements& of,
+                                                     std::size_t k, std::size_t count, Real* records) {
+    for (std::size_t a = 0; a < 10; ++a)
+#pragma GCC unroll 4
+      for (std::size_t l = 0; l < count; ++l) {
+        Real* const force = records + of.index[4 * k + l][a] + 4;
+        write_four(read_four(force) + read_four(of_lane[a][l] + 4 * k), force);
+      }
+  }
+
+  /// Adds what the points pull at the ten nodes to their records, four lanes after the other four: sums do not depend
+  /// on the number of lanes.
   [[gnu::always_inline]] static inline void add(const P (&out)[10][3], const Elements& of, std::size_t count,
                                                 Real* records) {
-    const auto add_part = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
-      for (std::size_t a = 0; a < 10; ++a) {
-        Part rows[4] = {part_of<k>(out[a][0]), part_of<k>(out[a][1]), part_of<k>(out[a][2]), Part{}};
-        transpose(rows);
+    alignas(64) Real of_lane[10][4][lanes];  // of lanes l, 4 + l, 8 + l, ... x y z ·
+    for (std::size_t a = 0; a < 10; ++a) {
+      Vector rows[4] = {out[a][0].v, out[a][1].v, out[a][2].v, Vector{}};
+      transpose_parts(rows);
 #pragma GCC unroll 4
-        for (std::size_t l = 0; l < 4; ++l) {
-          if (4 * k + l >= count) break;
-          Real* const force = records + of.index[4 * k + l][a] + 4;
-          write_four(read_four(force) + rows[l], force);
-        }
-      }
-    };
-    add_part(std::integral_constant<std::size_t, 0>{});
-    if constexpr (parts == 2) add_part(std::integral_constant<std::size_t, 1>{});
+      for (std::size_t l = 0; l < 4; ++l) std::memcpy(of_lane[a][l], &rows[l], sizeof rows[l]);
+    }
+    for (std::size_t k = 0; k < parts && 4 * k < count; ++k)
+      if (4 * k + 4 <= count)
+        add_four(of_lane, of, k, 4, records);
+      else
+        add_four(of_lane, of, k, count - 4 * k, records);
   }
 
   /// Adds the forces of `count` elements, at most one a lane; `of`: their nodes and constants, of every lane.
@@ -159,25 +206,9 @@ struct PointForceKernel {
     read_positions(records, of);
     RestShape<P> rest[4];
     read_rest(of, rest);
-    ElementKinematics<P> kinematics[4];
-#pragma GCC unroll 1
-    for (std::size_t q = 0; q < 4; ++q) {
-      P y[4][3];
-      virtual_corners(of, q, y);
-      kinematics[q] =
-          element_kinematics<L::uses_I2, L::uses_J, L::uses_I4, FibreShearLaw<L>>(y[0], y[1], y[2], y[3], rest[q]);
-    }
-    Tensions<P> t[4];
-#pragma GCC unroll 1
-    for (std::size_t q = 0; q < 4; ++q) {
-      t[q] = tensions(law, kinematics[q], rest[q]);
-      valid = valid && law.valid(kinematics[q].at);
-    }
+    P pressure(0);
     if constexpr (L::has_volume_term)
-      if (kappa) {
-        const P pressure = mean_pressure(kinematics, rest, pack_at(kappa));
-        for (Tensions<P>& of_point : t) of_point.wJ += pressure;
-      }
+      if (kappa) pressure = mean_pressure(of, rest, pack_at(kappa));
     P out[10][3], sum[4][3];
     for (auto& of_node : out)
       for (P& value : of_node) value = P(0);
@@ -186,14 +217,20 @@ struct PointForceKernel {
     constexpr Real own = own_weight;
 #pragma GCC unroll 1
     for (std::size_t q = 0; q < 4; ++q) {
-      P f[12];
-      forces_from_tensions<L::uses_J>(t[q], kinematics[q].e, kinematics[q].cross, f);
+      P y[4][3], f[12];
+      virtual_corners(of, q, y);
+      const ElementKinematics<P> at_point =
+          element_kinematics<L::uses_I2, L::uses_J, L::uses_I4, FibreShearLaw<L>>(y[0], y[1], y[2], y[3], rest[q]);
+      valid = valid && law.valid(at_point.at);
+      Tensions<P> t = tensions(law, at_point, rest[q]);
+      if constexpr (L::has_volume_term) t.wJ += pressure;
+      forces_from_tensions<L::uses_J>(t, at_point.e, at_point.cross, f);
 #pragma GCC unroll 4
       for (std::size_t c = 0; c < 4; ++c)
 #pragma GCC unroll 3
         for (std::size_t i = 0; i < 3; ++i) {
           sum[c][i] += f[3 * c + i];
-          out[own_node[q][c]][i] += own * f[3 * c + i];
+          out[node_between[q][c]][i] += own * f[3 * c + i];
         }
     }
     constexpr Real of_corner = corner_weight, of_midedge = midedge_weight;
@@ -203,7 +240,7 @@ struct PointForceKernel {
       for (std::size_t c = 0; c < 4; ++c) {
         out[c][i] += of_corner * sum[c][i];
 #pragma GCC unroll 4
-        for (std::size_t d = c + 1; d < 4; ++d) out[own_node[c][d]][i] += of_midedge * (sum[c][i] + sum[d][i]);
+        for (std::size_t d = c + 1; d < 4; ++d) out[node_between[c][d]][i] += of_midedge * (sum[c][i] + sum[d][i]);
       }
     }
     add(out, of, count, records);
@@ -251,10 +288,10 @@ struct PointForceKernel {
   }
 };
 
-/// Kernel of the law with that index in LawList, on packs of `bytes`, 8 lanes at most.
+/// Kernel of the law with that index in LawList, on packs of `bytes`.
 template <class Real, class Family, std::size_t bytes>
 PointKernel<Real> point_force_kernel(std::size_t law, bool continued) {
-  constexpr int fit = bytes / sizeof(Real), lanes = fit < 8 ? fit : 8;
+  constexpr int lanes = bytes / sizeof(Real);
   using P = Pack<Real, lanes, Family>;
   PointKernel<Real> kernel = nullptr;
   visit_law(law, continued, [&]<class Tag, bool with>(Tag, std::bool_constant<with>) {

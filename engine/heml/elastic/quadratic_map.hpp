@@ -1,10 +1,6 @@
 #pragma once
 // The map B of one quadratic tetrahedron from its ten nodes to the virtual corners of its four integration points
 // (mesh/quadratic.hpp), and its transpose, in registers.
-//
-// Of the four nodes of a virtual corner one has the larger barycentric coordinate of its point in its weight. Corner i
-// of every point shares the rest: y_qi = y_i + own x_qi, x_qi in the middle of edge qi, or corner i itself where q is
-// i.
 #include <array>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/four.hpp>
@@ -13,12 +9,6 @@
 namespace heml {
 
 using QuadraticNodes = std::array<int, 10>;  ///< as quadratic_nodes()
-
-inline constexpr double corner_weight = virtual_corner(0, 1)[1].weight, midedge_weight = virtual_corner(0, 1)[2].weight;
-inline constexpr double own_weight = virtual_corner(0, 0)[0].weight - corner_weight;
-
-/// The local node in the middle of edge ij, or of the corner if i is j.
-constexpr std::size_t node_between(std::size_t i, std::size_t j) { return i == j ? i : 4 + edge_between(i, j); }
 
 /// Positions of the virtual corners, [point][corner], relative to the element's first node: edges keep the digits that
 /// sums of whole coordinates would lose. x: 3 #V.
@@ -36,10 +26,10 @@ template <class Real>
     Four<Real> midedges = {};
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < 4; ++j)
-      if (j != i) midedges += at[node_between(i, j)];
+      if (j != i) midedges += at[node_between[i][j]];
     const Four<Real> shared = of_corner * at[i] + of_midedge * midedges;
 #pragma GCC unroll 4
-    for (std::size_t q = 0; q < 4; ++q) corners[4 * q + i] = shared + own * at[node_between(q, i)];
+    for (std::size_t q = 0; q < 4; ++q) corners[4 * q + i] = shared + own * at[node_between[q][i]];
   }
 }
 
@@ -65,7 +55,7 @@ template <class Real>
   for (std::size_t i = 0; i < 4; ++i)
 #pragma GCC unroll 4
     for (std::size_t j = i + 1; j < 4; ++j)
-      out[node_between(i, j)] = of_midedge * (sum[i] + sum[j]) + own * (corners[4 * j + i] + corners[4 * i + j]);
+      out[node_between[i][j]] = of_midedge * (sum[i] + sum[j]) + own * (corners[4 * j + i] + corners[4 * i + j]);
   write_threes(out, to);
 }
 

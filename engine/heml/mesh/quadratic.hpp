@@ -50,6 +50,20 @@ constexpr std::array<WeightedNode, 4> virtual_corner(std::size_t q, std::size_t 
   return nodes;
 }
 
+/// Of the four nodes of a virtual corner one has the larger barycentric coordinate of its point in its weight. Corner i
+/// of every point shares the rest: y_qi = y_i + own x_qi, x_qi in the middle of edge qi, or corner i itself where q is
+/// i.
+inline constexpr double corner_weight = virtual_corner(0, 1)[1].weight, midedge_weight = virtual_corner(0, 1)[2].weight;
+inline constexpr double own_weight = virtual_corner(0, 0)[0].weight - corner_weight;
+
+/// The local node in the middle of edge ij, or of the corner if i is j.
+inline constexpr auto node_between = [] {
+  std::array<std::array<std::size_t, 4>, 4> node{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) node[i][j] = i == j ? i : 4 + edge_between(i, j);
+  return node;
+}();
+
 /// The ten shape functions at a place in an element, given by its barycentric coordinates.
 constexpr std::array<double, 10> shape_functions(const std::array<double, 4>& place) {
   std::array<double, 10> N{};
@@ -98,13 +112,16 @@ std::array<double, element_points> point_volumes(const Tet& tet, const std::arra
   const std::array<int, 10> nodes = quadratic_nodes(tet, midedges);
   std::array<Vec3, 10> x;
   for (std::size_t a = 0; a < 10; ++a) x[a] = position(nodes[a]);
+  std::array<Vec3, 4> shared, y;
+  for (std::size_t i = 0; i < 4; ++i) {
+    Vec3 middles = Vec3::Zero();
+    for (std::size_t j = 0; j < 4; ++j)
+      if (j != i) middles += x[node_between[i][j]];
+    shared[i] = corner_weight * x[i] + midedge_weight * middles;
+  }
   std::array<double, element_points> volumes;
   for (std::size_t q = 0; q < element_points; ++q) {
-    std::array<Vec3, 4> y;
-    for (std::size_t i = 0; i < 4; ++i) {
-      y[i].setZero();
-      for (const auto& [node, weight] : virtual_corner(q, i)) y[i] += weight * x[node];
-    }
+    for (std::size_t i = 0; i < 4; ++i) y[i] = shared[i] + own_weight * x[node_between[q][i]];
     volumes[q] = signed_volume(y[0], y[1], y[2], y[3]);
   }
   return volumes;
