@@ -47,9 +47,9 @@ double vessels(const Vec3& p) {
 
 }  // namespace
 
-Organ kidney() {
+Organ kidney(std::string name, double edge) {
   Organ organ;
-  organ.name = "kidney";
+  organ.name = std::move(name);
   organ.shape = [](const Vec3& p) { return smooth_union(parenchyma(p), vessels(p), 0.006); };
   organ.region = [](const Vec3& p) { return parenchyma(p) < vessels(p) ? 1 : 2; };
   organ.detail = [](const Vec3& p) {
@@ -58,7 +58,7 @@ Organ kidney() {
   };
   organ.low = Vec3(-0.050, -0.075, -0.040);
   organ.high = Vec3(0.100, 0.075, 0.040);
-  organ.edge = 0.00575;
+  organ.edge = edge;
   organ.depth = 0.008;
   organ.spacing = 0.020;
   organ.enough = 0.3;

@@ -51,13 +51,16 @@ void make_mesh(const std::string& folder, TetMesh mesh) {
 int main(int argc, char** argv) try {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.empty()) {
-    fmt::print(stderr, "usage: heml-make-assets FOLDER [kidney] [uterus] [liver] [irregular_cube] [inclusion]\n");
+    fmt::print(stderr,
+               "usage: heml-make-assets FOLDER [kidney] [kidney_coarse] [uterus] [liver] [irregular_cube] "
+               "[inclusion]\n");
     return 2;
   }
   const auto wanted = [&](const char* name) {
     return arguments.size() == 1 || std::find(arguments.begin() + 1, arguments.end(), name) != arguments.end();
   };
-  if (wanted("kidney")) make_mesh(arguments[0], make::mesh_of(make::kidney()));
+  if (wanted("kidney")) make_mesh(arguments[0], make::mesh_of(make::kidney("kidney", 0.00575)));
+  if (wanted("kidney_coarse")) make_mesh(arguments[0], make::mesh_of(make::kidney("kidney_coarse", 0.010)));
   if (wanted("uterus")) make_mesh(arguments[0], make::mesh_of(make::uterus()));
   if (wanted("liver")) make_mesh(arguments[0], make::mesh_of(make::liver()));
   if (wanted("irregular_cube")) make_mesh(arguments[0], make::irregular_cube());

@@ -20,8 +20,8 @@ struct Organ {
 };
 
 /// A left kidney, 11 cm, with renal artery, renal vein and ureter. x medial, y superior, z anterior.
-/// Regions: 1 parenchyma, 2 vessels and ureter.
-Organ kidney();
+/// Regions: 1 parenchyma, 2 vessels and ureter. edge: m, of the surface's triangles.
+Organ kidney(std::string name, double edge);
 
 /// A uterus, 8 cm, with its cavity, cervical canal and the roots of both tubes. x left, y superior, z anterior.
 /// Regions: 1 wall of the body, 2 cervix, 3 tubes.

@@ -12,6 +12,7 @@ while read -r scene seconds; do
 done <<'END'
 kidney_grasp 0.5
 kidney_pull 1.1
+kidney_adapted 1.1
 uterus 0.3
 liver_cut 1.8
 test_bench 2

@@ -174,7 +174,7 @@ TEST_CASE("every scene can be read, and runs for a while") {
     CHECK(std::filesystem::exists(assets / "pictures/scenes" / (scene.name + ".png")));
     ++scenes;
   }
-  CHECK(scenes == 18);
+  CHECK(scenes == 19);
 }
 
 TEST_CASE("every scene of the accuracy study can be read") {
