@@ -113,6 +113,9 @@ void print_method(const Explanation& explained) {
     print_line("tick", "{:.4g} ms, {} step{}", 1e3 * step.tick, step.steps_per_tick,
                step.steps_per_tick == 1 ? "" : "s");
   print_line("stable step", "{}", stable_step_text(explained));
+  if (step.heavier_nodes > 0)
+    print_line("mass scaling", "{:.2g} % of the mass added, at {} node{}", 1e2 * step.added_mass, step.heavier_nodes,
+               step.heavier_nodes == 1 ? "" : "s");
   if (world.method.lowest_frequency)
     print_line("lowest frequency", "{:.3g} Hz at rest", *world.method.lowest_frequency / (2 * std::numbers::pi));
   if (limit.element < 0) return;

@@ -74,6 +74,8 @@ Json method_json(const Explanation& explained) {
           {"step_given", solver.step.has_value()},
           {"steps_a_tick", step.steps_per_tick},
           {"stable_step", step.stable},
+          {"added_mass", step.added_mass},
+          {"heavier_nodes", step.heavier_nodes},
           {"step_cost", method.step_cost},
           {"explicit_share", method.explicit_share},
           {"explicit_enough", method.enough},

@@ -1,7 +1,7 @@
 #pragma once
-// The reference of time errors: the same mesh and element, integrated by Verlet in double with a tenth of the stable
-// step and with half of that. It resolves errors down to ten times the change due to the halving. The methods under
-// study do not use it, and it is not one of them.
+// The reference of time errors: the same mesh and element with its true masses, integrated by Verlet in double with a
+// tenth of the stable step and with half of that. It resolves errors down to ten times the change due to the halving.
+// The methods under study do not use it, and it is not one of them.
 #include <heml/scenario/json_text.hpp>
 #include <studies/accuracy_run.hpp>
 

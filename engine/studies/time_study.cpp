@@ -130,7 +130,9 @@ TimeStudy study_time(const std::string& key, const Problem& problem, const std::
   options.make = context.make;
 
   study.reference = reference_from(context.kept(place + "|reference", [&] {
-    return to_json(reference_of(problem, play(problem, {Integrator::verlet}, options), options));
+    Problem exact = problem;
+    exact.scene.solver.mass_scaling = 0;
+    return to_json(reference_of(exact, play(exact, {Integrator::verlet}, options), options));
   }));
   if (!study.reference.failure.empty()) return study;
 

@@ -49,6 +49,7 @@ struct BodyOptions {
   bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials; of quadratic elements
                                 ///< mean dilatation, each material with a volume term of its own
   InstructionSet instruction_set = InstructionSet::best;  ///< of the force kernels; the processor must support it
+  double mass_scaling = 0;                                ///< share of the body's mass that mass_factors() may add
   int threads = 0;                                        ///< that build the layout of a large body; 0: one per core
 };
 
@@ -248,6 +249,9 @@ class ElasticBody {
   /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume as meshed / 4 on its nodes; of
   /// quadratic ones 1/36 on corners and 4/27 on mid-edge nodes.
   std::vector<Real> masses() const;
+  /// What they are multiplied by with options().mass_scaling, #V, 1 or more; empty: 1. Bounds of frequencies and
+  /// damping are of the masses that come out.
+  const std::vector<Real>& mass_factors(ThreadTeam& team);
   /// ∫ρN of each node (#V, kg), which gravity acts on: that of quadratic elements is negative on corners; of linear
   /// ones, masses().
   std::vector<Real> consistent_masses() const;
@@ -361,7 +365,9 @@ class ElasticBody {
   std::vector<double> point_masses() const;
   template <class Bound>
   Real max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, const Bound& bound);
-  void find_step_weights(ThreadTeam& team);
+  Real inner_frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps);
+  void need_step_weights(ThreadTeam& team);
+  std::shared_ptr<StepWeights<Real>> step_weights(ThreadTeam& team) const;
   /// Of the nodes of the elements inside; null: virtual corners.
   const Real* corner_weights() const { return layout_->virtual_corners ? nullptr : step_weights_->node.data(); }
   void find_packets(const std::vector<int>& nodes);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/mass_scaling.hpp>
 
 namespace heml {
 
@@ -14,7 +15,6 @@ Real ElasticBody<Real>::max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, 
   nodes.begin(this->nodes(), steps);
   find_packets(nodes.due());
   weighted_bound_.resize(layout_->bounded_elements());
-  if (!step_weights_) find_step_weights(team);
   std::size_t first = 0;
   auto due = due_packets_.begin();
   for (std::size_t g = 0; g < parts_.size(); ++g) {
@@ -43,7 +43,26 @@ Real ElasticBody<Real>::max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, 
 }
 
 template <class Real>
-void ElasticBody<Real>::find_step_weights(ThreadTeam& team) {
+void ElasticBody<Real>::need_step_weights(ThreadTeam& team) {
+  if (step_weights_) return;
+  const auto found = step_weights(team);
+  step_weights_ = found;
+  if (!(options_.mass_scaling > 0)) return;
+  NodeBounds<Real> all;
+  inner_frequency_bound(at_rest().data(), team, all, 0);
+  found->mass_factor = heml::mass_factors(all.bounds(), masses(), options_.mass_scaling);
+}
+
+template <class Real>
+const std::vector<Real>& ElasticBody<Real>::mass_factors(ThreadTeam& team) {
+  static const std::vector<Real> none;
+  if (!(options_.mass_scaling > 0)) return none;  // weights are found when they are asked for
+  need_step_weights(team);
+  return step_weights_->mass_factor;
+}
+
+template <class Real>
+std::shared_ptr<StepWeights<Real>> ElasticBody<Real>::step_weights(ThreadTeam& team) const {
   std::vector<StiffElements<Real>> stiff;
   for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
@@ -54,7 +73,7 @@ void ElasticBody<Real>::find_step_weights(ThreadTeam& team) {
     const auto [shear, bulk] = small_strain_moduli(material);
     stiff.push_back({&*part.group, shear, std::max(bulk - 2 * shear / 3, 0.0)});
   }
-  step_weights_ = std::make_shared<const StepWeights<Real>>(heml::find_step_weights(stiff, *layout_, team));
+  return std::make_shared<StepWeights<Real>>(find_step_weights(stiff, *layout_, team));
 }
 
 /// Lists in due_packets_, ascending, the packets with an element at one of the nodes. Packets are numbered through all
@@ -114,7 +133,9 @@ Real ElasticBody<Real>::mean_bound(std::size_t node) const {
     sum += weighted_bound_[e].first;
     mass += weighted_bound_[e].second;
   });
-  return mass > 0 ? sum / (mass * step_weights_->node[node]) : 0;
+  if (!(mass > 0)) return 0;
+  if (!step_weights_->mass_factor.empty()) mass *= step_weights_->mass_factor[node];
+  return sum / (mass * step_weights_->node[node]);
 }
 
 template <class Real>
@@ -150,7 +171,13 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps) {
-  x = inner_positions(x, team);
+  need_step_weights(team);
+  return inner_frequency_bound(inner_positions(x, team), team, nodes, steps);
+}
+
+/// x: of virtual corners, if the elements are quadratic.
+template <class Real>
+Real ElasticBody<Real>::inner_frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps) {
   if (pressure_) pressure_->begin_bounds(x, team);
   Real bound = max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
     const Part& part = parts_[g];
@@ -171,6 +198,7 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team, NodeBou
 template <class Real>
 Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps) {
   if (!has_internal_state()) return 0;
+  need_step_weights(team);
   x = inner_positions(x, team);
   return max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
     std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));

@@ -18,7 +18,8 @@ struct StepWeights {
   std::vector<Real> node;  ///< #V, w_a = 1/z_a
   std::vector<Real>
       factor;  ///< #T of quadratic elements: b_e over the largest bound of their points as linear elements
-  std::size_t bytes() const { return bytes_of(node, factor); }
+  std::vector<Real> mass_factor;  ///< #V, of lumped masses (mass_scaling.hpp), which bounds are divided by; empty: 1
+  std::size_t bytes() const { return bytes_of(node, factor, mass_factor); }
 };
 
 /// The elements of one material.

@@ -11,6 +11,7 @@ namespace {
 constexpr double locks = 0.45;            // Poisson's ratio from which linear tetrahedra visibly lock
 constexpr double locks_quadratic = 0.47;  // and coarse quadratic ones
 constexpr double bulky = 100;             // κ/μ from which pressure waves alone set the stable step
+constexpr double worth_scaling = 1.5;     // times longer steps from which mass scaling is advised
 constexpr double waste = 1.5;             // ratio of stable step to scene step from which a longer step is advised
 
 /// Computing time over simulated time of an explicit method, by the cost model of "auto".
@@ -51,6 +52,13 @@ void advise_on_volume(const Explanation& explained, const MaterialFacts& materia
 
 void advise_on_mesh(const Explanation& explained, std::vector<Advice>& advice) {
   const LimitFacts& limit = explained.limit;
+  const double longer = explained.world.step.scaled_step;
+  if (!explained.world.solver && longer >= worth_scaling)
+    advice.push_back({"mass_scaling",
+                      fmt::format("{:.0f} % more mass, at the nodes that limit explicit steps, would make them {:.2g} "
+                                  "times as long",
+                                  1e2 * StepFacts::offered, longer),
+                      fmt::format("\"mass_scaling\": {}, where so little does not matter", StepFacts::offered)});
   if (!explained.world.solver && limit.cause != LimitFacts::Cause::none)
     advice.push_back(
         {"limiting_element",
@@ -147,6 +155,7 @@ std::vector<OmittedFeature> omitted_features_of(const Scene& scene, const WorldS
   leave(facts.solver && facts.solver->minimiser == Minimiser::newton, "L-BFGS", "Newton's method minimises");
   leave(facts.solver.has_value(), "live stable step", "implicit methods have no limit");
   leave(solver.damping == 0, "mass damping", "0");
+  leave(solver.mass_scaling == 0, "mass scaling", "0: every node has its own mass");
   leave(setup.gravity.isZero(0), "gravity", "0");
   leave(setup.loads.empty(), "loads", "none: an empty list");
   leave(scene.events.empty(), "tools and edits",

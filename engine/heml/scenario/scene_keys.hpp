@@ -210,6 +210,9 @@ inline constexpr KeyInfo solver[] = {
      "ticks a second, where no step is given; explicit methods take as many stable steps a tick as it needs"},
     {"duration", form::non_negative, "s", "", "of `heml solve`"},
     {"damping", form::non_negative, "1/s", "", "proportional to mass"},
+    {"mass_scaling", form::between(0, 1), "", "",
+     "share of the mass that may be added at nodes that limit the steps of explicit methods; gravity acts on the true "
+     "masses"},
     {"precision", form::one_of<precision_names>(), "", "",
      "of the arithmetic; `\"float\"` computes in double what lies farther from the origin than 32 of its diagonals"},
     {"threads", form::whole(0, max_threads), "", "", "0: all cores; never changes a bit of the result"},

@@ -60,6 +60,7 @@ SolverSettings solver_from(const JsonCursor& key) {
     key.fail(fmt::format("a duration of {} s is too many steps of {} s", solver.duration, solver.tick()),
              fmt::format("at most {} steps", max_ticks));
   object.read("damping", solver.damping);
+  object.read("mass_scaling", solver.mass_scaling);
   if (const auto precision = object.choice("precision")) solver.single_precision = *precision == 1;
   object.read("threads", solver.threads);
   if (const auto element = object.choice("element")) {
@@ -84,6 +85,7 @@ Json solver_json(const SolverSettings& solver) {
     json["rate"] = solver.rate;
   json["duration"] = solver.duration;
   json["damping"] = solver.damping;
+  if (solver.mass_scaling > 0) json["mass_scaling"] = solver.mass_scaling;
   json["precision"] = precision_names[solver.single_precision ? 1 : 0];
   json["threads"] = solver.threads;
   json["element"] = solver.element();

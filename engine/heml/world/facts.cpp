@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <heml/elastic/mass_scaling.hpp>
 #include <heml/math/bytes.hpp>
 #include <heml/world/world_queries.hpp>
+#include <numeric>
 
 namespace heml {
 
@@ -31,6 +33,13 @@ StepFacts WorldQueries<Real>::step_facts() const {
   facts.stable = s_.limit.stable;
   if (is_explicit(s_.method) && !s_.setup->solver.step && s_.limit.stable > 0)
     facts.steps_per_tick = static_cast<int>(std::clamp(std::ceil(facts.tick / s_.limit.stable), 1.0, 1.0 * most_steps));
+  const std::vector<Real>&lumped = s_.masses->lumped, &heavy = s_.masses->heavy();
+  if (s_.setup->solver.mass_scaling > 0) {
+    const double true_mass = std::accumulate(heavy.begin(), heavy.end(), 0.0);
+    facts.added_mass = std::accumulate(lumped.begin(), lumped.end(), 0.0) / true_mass - 1;
+    const std::vector<Real>& factors = s_.body.mass_factors(s_.team);
+    facts.heavier_nodes = static_cast<int>(std::count_if(factors.begin(), factors.end(), [](Real f) { return f > 1; }));
+  }
   NodeBounds<Real> nodes;
   const Real bound = s_.body.frequency_bound(s_.state.x.data(), s_.team, nodes, 0);
   const auto [element, share] = s_.body.largest_contribution(nodes.largest_node());
@@ -39,6 +48,9 @@ StepFacts WorldQueries<Real>::step_facts() const {
   std::vector<Real> bounds = nodes.bounds();
   const double most = static_cast<double>(bounds[nodes.largest_node()]);
   facts.element_share = share * most / static_cast<double>(bound);
+  if (s_.setup->solver.mass_scaling == 0)
+    for (const Real factor : mass_factors(bounds, lumped, StepFacts::offered))
+      facts.scaled_step = std::max(facts.scaled_step, std::sqrt(static_cast<double>(factor)));
   const auto middle = bounds.begin() + static_cast<std::ptrdiff_t>(bounds.size() / 2);
   std::nth_element(bounds.begin(), middle, bounds.end());
   facts.median_ratio = most / static_cast<double>(*middle);

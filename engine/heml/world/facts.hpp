@@ -26,6 +26,10 @@ struct StepFacts {
   int steps_per_tick = 1;       ///< of the method in use
   int element = -1;             ///< adds most to ω² at the node that limits the step, mesh-file order; −1: springs
   double element_share = 0;     ///< how much of the bound of ω² it adds, to 1
+  double added_mass = 0;        ///< by mass scaling (elastic/mass_scaling.hpp), over the body's mass
+  int heavier_nodes = 0;        ///< that it was added at
+  double scaled_step = 1;       ///< by how much `offered` mass scaling would lengthen the stable step; 1: it is in use
+  static constexpr double offered = 0.01;
   double median_ratio = 0;      ///< the bound of that node (elastic/step_weights.hpp) over the one of the median node
 };
 

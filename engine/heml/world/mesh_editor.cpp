@@ -46,7 +46,10 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
     return "remove: " + made.message();
   save();
   history_.stroke = {};
-  const auto mass = [this] { return std::accumulate(s_.masses->lumped.begin(), s_.masses->lumped.end(), 0.0); };
+  const auto mass = [this] {
+    const std::vector<Real>& heavy = s_.masses->heavy();
+    return std::accumulate(heavy.begin(), heavy.end(), 0.0);
+  };
   EditReport& report = s_.edits.emplace_back(begin_report());
   report.removed = edit.removed.size();
   report.mass = mass();

@@ -82,6 +82,7 @@ struct SolverSettings {
   double rate = 1000;          ///< Hz of the engine's ticks where no step is given
   double duration = 1;         ///< s, for `heml solve`
   double damping = 0;          ///< mass-proportional, 1/s
+  double mass_scaling = 0;     ///< share of the mass that may be added for longer steps (elastic/mass_scaling.hpp)
   int threads = 0;             ///< 0: all cores. Never changes a bit of the result
   bool continuation = false;   ///< continue each law past its range instead of stopping there
   bool recovery = false;  ///< bring a collapsed or wild body back instead of stopping (recovery.hpp); dynamics alone

@@ -26,7 +26,8 @@ void add_weights(const Real* mass, const Vector3<Real>& g, Real* f, std::size_t 
 }
 
 BodyOptions options_of(const WorldSetup& setup) {
-  return {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads};
+  return {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.mass_scaling,
+          setup.solver.threads};
 }
 
 }  // namespace
@@ -61,6 +62,10 @@ void Simulation<Real>::update_masses() {
   NodeMasses<Real> now;
   now.lumped = body.masses();
   if (!model->midedges.empty()) now.consistent = body.consistent_masses();
+  if (const std::vector<Real>& factors = body.mass_factors(team); !factors.empty()) {
+    if (now.consistent.empty()) now.consistent = now.lumped;
+    for (std::size_t n = 0; n < factors.size(); ++n) now.lumped[n] *= factors[n];
+  }
   now.inverse.reserve(now.lumped.size());
   for (const Real m : now.lumped) now.inverse.push_back(m > 0 ? 1 / m : Real(0));
   const std::vector<AxisSet> held = held_axes(*model);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <heml/world/stable_step.hpp>
 
@@ -47,6 +48,15 @@ void watch_grasps(Simulation<Real>& s) {
   s.frequency_bounds.watch(std::move(nodes));
 }
 
+/// Whether the masses are those that the body's bounds are of.
+template <class Real>
+[[maybe_unused]] bool has_masses_of_bounds(Simulation<Real>& s) {
+  std::vector<Real> masses = s.body.masses();
+  const std::vector<Real>& factors = s.body.mass_factors(s.team);
+  for (std::size_t n = 0; n < factors.size(); ++n) masses[n] *= factors[n];
+  return masses == s.masses->lumped;
+}
+
 template <class Real>
 void forget_bounds(Simulation<Real>& s) {
   s.frequency_bounds.forget();
@@ -79,6 +89,7 @@ void evaluate_bounds(Simulation<Real>& s) {
 
 template <class Real>
 void find_stable_step(Simulation<Real>& s) {
+  assert(has_masses_of_bounds(s));
   watch_grasps(s);  // also for the same grasps: elements may have other places
   forget_bounds(s);
   evaluate_bounds(s);

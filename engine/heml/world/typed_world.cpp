@@ -18,7 +18,7 @@ bool same_body(const MeshSize& size, const WorldSetup& a, const WorldSetup& b) {
   const auto options = [](const WorldSetup& setup) {
     const SolverSettings& solver = setup.solver;
     return std::tuple(solver.continuation, solver.nodal_pressure, solver.recovery, solver.is_static(),
-                      resolve(setup.instruction_set));
+                      solver.mass_scaling, resolve(setup.instruction_set));
   };
   const auto begin_alike = [](const auto& one, const auto& other, std::size_t count) {
     return std::equal(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(count), other.begin());

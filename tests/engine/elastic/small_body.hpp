@@ -24,6 +24,23 @@ inline TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& 
   return reordered(mesh, hilbert_order(mesh));
 }
 
+/// Pushes a corner of a tetrahedron as near to its opposite face as `left` of its height, the first one where all
+/// others stay upright.
+inline void flatten_one(TetMesh& mesh, double left) {
+  for (const Tet& tet : mesh.tets)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto at = [&](std::size_t k) -> Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[(c + k) % 4])]; };
+      const Vec3 before = at(0), normal = (at(2) - at(1)).cross(at(3) - at(1)).normalized();
+      at(0) -= (1 - left) * normal.dot(at(0) - at(1)) * normal;
+      const auto upright = [&](const Tet& t) {
+        const auto X = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
+        return signed_volume(X(0), X(1), X(2), X(3)) > 1e-12;
+      };
+      if (std::all_of(mesh.tets.begin(), mesh.tets.end(), upright)) return;
+      at(0) = before;
+    }
+}
+
 /// A small irregular body, stretched by F and with random displacements of `noise` times an edge length.
 struct SmallBody {
   TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), {3, 2, 2});

@@ -144,8 +144,9 @@ TEST_CASE("snapshot: every command, before the snapshot and after it, in and out
         std::vector<Event> first, later;
         for (const Command& earlier : before(command)) first.push_back({1, earlier}), later.push_back({6, earlier});
         first.push_back({2, command}), later.push_back({7, command});
-        for (const std::vector<Event>& events : {first, later})
-          check_restored({bar_in_contact(integrator, single), events, 5, 10});
+        WorldSetup setup = bar_in_contact(integrator, single);
+        setup.solver.mass_scaling = single ? 0.1 : 0;
+        for (const std::vector<Event>& events : {first, later}) check_restored({setup, events, 5, 10});
       }
 }
 
@@ -168,6 +169,7 @@ TEST_CASE("snapshot: quadratic elements, every command, before the snapshot and 
       setup.midedges = add_midedge_nodes(setup.mesh);
       setup.solver.quadratic = true;
       setup.solver.nodal_pressure = mean_dilatation;
+      setup.solver.mass_scaling = mean_dilatation ? 0.1 : 0;
       Command accepted = command;
       if (auto* change = std::get_if<SetMaterial>(&accepted)) change->material = sample_material("neo_hookean_iso");
       if (auto* removal = std::get_if<RemoveElements>(&accepted)) removal->which.tets = {3, 17};

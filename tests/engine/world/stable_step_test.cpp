@@ -1,6 +1,8 @@
 // The stable step between evaluations of all elements.
 #include <doctest/doctest.h>
 
+#include <heml/world/facts.hpp>
+
 #include "engine/elastic/small_body.hpp"
 #include "world_support.hpp"
 
@@ -82,6 +84,90 @@ TEST_CASE("stable step: it grows with the body, from a micrometre to ten metres,
       CAPTURE(size);
       CHECK(step_of(size, single) == doctest::Approx(of_a_metre * size).epsilon(1e-3));
     }
+}
+
+namespace {
+
+/// A cantilever with a sliver.
+WorldSetup with_sliver(bool quadratic) {
+  WorldSetup setup = cantilever();
+  flatten_one(setup.mesh, 0.03);
+  setup.solver.quadratic = quadratic;
+  if (quadratic) setup.midedges = add_midedge_nodes(setup.mesh);
+  return setup;
+}
+
+}  // namespace
+
+TEST_CASE("mass scaling: a sliver costs fewer steps for a twentieth of the mass, and nothing hangs lower for it") {
+  for (const bool quadratic : {false, true}) {
+    CAPTURE(quadratic);
+    WorldSetup setup = with_sliver(quadratic);
+    setup.solver.damping = 20;
+    const auto plain = make_world(setup);
+    setup.solver.mass_scaling = 0.05;
+    const auto scaled = make_world(setup);
+    CHECK(scaled->stable_step() > 1.3 * plain->stable_step());
+    const StepFacts facts = scaled->facts().step, before = plain->facts().step;
+    CHECK(facts.added_mass == doctest::Approx(0.05).epsilon(1e-6));
+    CHECK(facts.heavier_nodes > 0);
+    CHECK(facts.heavier_nodes < static_cast<int>(setup.mesh.nodes.size()) / 10);
+    CHECK(facts.scaled_step == 1);
+    CHECK(before.added_mass == 0);
+    CHECK(before.scaled_step > 1.05);
+    CHECK(before.scaled_step < scaled->stable_step() / plain->stable_step());  // of a hundredth
+    for (World* world : {plain.get(), scaled.get()}) {
+      for (int tick = 0; tick < 3000; ++tick) world->tick();
+      REQUIRE_FALSE(world->halt());
+    }
+    // Both have come to rest, where gravity holds the true masses.
+    const double sag = rms_difference(plain->positions(), setup.mesh.nodes);
+    CHECK(rms_difference(plain->positions(), scaled->positions()) < 1e-6 * sag);
+    CHECK(plain->reactions()[0].y() == doctest::Approx(scaled->reactions()[0].y()).epsilon(1e-6));
+    CHECK(scaled->steps() < plain->steps() / 1.25);
+  }
+}
+
+TEST_CASE("mass scaling: the energy of a swing is kept at the longer steps") {
+  WorldSetup setup = with_sliver(false);
+  setup.solver.mass_scaling = 0.05;
+  const auto world = make_world(setup);
+  double least = 0, most = 0, highest = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    world->tick();
+    REQUIRE_FALSE(world->halt());
+    const Energies e = world->energies();
+    const double sum = e.kinetic + e.elastic + e.potential;
+    least = std::min(least, sum), most = std::max(most, sum), highest = std::max(highest, e.elastic);
+  }
+  CHECK(most - least < 0.02 * highest);
+}
+
+TEST_CASE("mass scaling: cuts, materials and what takes them back leave masses and bounds of each other") {
+  for (const bool quadratic : {false, true}) {
+    CAPTURE(quadratic);
+    WorldSetup setup = with_sliver(quadratic);
+    setup.solver.mass_scaling = 0.02;
+    const auto world = make_world(setup);
+    const double first = world->stable_step();
+    const auto check = [&] {
+      for (int tick = 0; tick < 5; ++tick) world->tick();
+      REQUIRE_FALSE(world->halt());
+      const double added = world->facts().step.added_mass;
+      CHECK(added > 0.019);
+      CHECK(added < 0.021);
+    };
+    check();
+    REQUIRE(world->apply(blade_at(0.047)).ok());
+    check();
+    REQUIRE(world->apply(Undo{}).ok());
+    check();
+    REQUIRE(world->apply(SetMaterial{std::nullopt, soft("neo_hookean", 4e4)}).ok());
+    CHECK(world->stable_step() == doctest::Approx(first / 2).epsilon(0.05));
+    check();
+    REQUIRE(world->apply(StepHistory{-1}).ok());
+    check();
+  }
 }
 
 }  // namespace heml::stable_step_test
