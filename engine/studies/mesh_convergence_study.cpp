@@ -103,6 +103,13 @@ ConvergenceMesh mesh_from(const Json& found, const std::string& element, int hal
   return mesh;
 }
 
+/// Those of the problem, and p1, from which quadratic ones are extrapolated.
+std::vector<std::string> elements_studied(const Problem& problem) {
+  std::vector<std::string> elements = elements_of(problem);
+  if (std::find(elements.begin(), elements.end(), "p1") == elements.end()) elements.push_back("p1");
+  return elements;
+}
+
 void find_energy_errors(const Nested& nested, std::vector<ConvergenceMesh>& meshes) {
   const auto limit = extrapolate(nested.potentials);
   if (!limit) return;
@@ -116,6 +123,7 @@ Extrapolation best_reference(const std::vector<Nested>& solutions, const std::ve
                              const std::vector<double>& mass) {
   std::vector<Extrapolation> all;
   Extrapolation linear;
+  linear.failure = "linear elements were not studied";
   for (const Nested& nested : solutions)
     if (nested.element == "p1") linear = extrapolate(nested.x, rest, mass);
   for (const Nested& nested : solutions) {
@@ -210,7 +218,7 @@ std::vector<Vec3> equilibrium_positions(const std::string& key, const Problem& p
 
 std::size_t steps_of_mesh_convergence_study(const Problem& problem, int halvings) {
   std::size_t steps = 0;
-  for (const std::string& element : elements_of(problem))
+  for (const std::string& element : elements_studied(problem))
     steps += static_cast<std::size_t>(halvings_for(element, halvings) + 1);
   return steps;
 }
@@ -221,7 +229,7 @@ MeshConvergenceStudy study_mesh_convergence(const std::string& key, const Proble
   const auto& rest = first.setup.mesh.nodes;
   MeshConvergenceStudy study;
   std::vector<Nested> solutions;
-  for (const std::string& element : elements_of(problem)) {
+  for (const std::string& element : elements_studied(problem)) {
     Nested& nested = solutions.emplace_back(Nested{element, {}, {}, {}});
     Problem base = first;
     for (int k = 0; k <= halvings_for(element, halvings); ++k) {

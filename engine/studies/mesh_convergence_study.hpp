@@ -74,7 +74,7 @@ struct Potential {
 std::optional<Potential> extrapolate(const std::vector<double>& potentials);
 
 /// Applies the scene's full loads without its events. key: prefix in the results. halvings: subdivisions of the finest
-/// mesh. Studies all of elements_of(). Requires linear_base(). u* and errors are at the nodes of its mesh.
+/// mesh. Studies all of elements_of(), and p1. Requires linear_base(). u* and errors are at the nodes of its mesh.
 MeshConvergenceStudy study_mesh_convergence(const std::string& key, const Problem& problem, int halvings,
                                             const StudyContext& context);
 std::size_t steps_of_mesh_convergence_study(const Problem& problem, int halvings);

@@ -200,6 +200,36 @@ class CommandLine(ProgramCase):
         self.assertIn("precision", [change["feature"] for change in measured["changes"]])
         self.assertIn("rms mm", heml("explain", scene, "--measure").stdout)
 
+
+    def test_explain_tells_the_mass_that_scaling_adds(self):
+        body = cantilever()
+        body["solver"]["mass_scaling"] = 0.02
+        scaled = self.write("scaled.json", body)
+        text = heml("explain", scaled)
+        self.assertEqual(text.returncode, 0, text.stderr)
+        self.assertRegex(text.stdout, r"mass scaling +2 % of the mass added, at \d+ nodes")
+        method = json.loads(heml("explain", scaled, "--json").stdout)["method"]
+        self.assertAlmostEqual(method["added_mass"], 0.02, 6)
+        self.assertGreater(method["heavier_nodes"], 0)
+        del body["solver"]["mass_scaling"]
+        plain = json.loads(heml("explain", self.write("plain.json", body), "--json").stdout)["method"]
+        self.assertEqual((plain["added_mass"], plain["heavier_nodes"]), (0, 0))
+        self.assertLess(plain["stable_step"], method["stable_step"])
+        body["solver"]["mass_scaling"] = 1.5
+        refused = heml("solve", self.write("heavy.json", body), "--out", self.folder / "out")
+        self.assertEqual(refused.returncode, 3)
+        self.assertIn("solver.mass_scaling", refused.stderr)
+
+    def test_explain_says_where_a_body_has_no_stable_step(self):
+        tiny = cantilever()
+        tiny["mesh"] = {"box": {"size": [1e-7, 1e-7, 1e-7], "cells": [4, 4, 4]}}
+        tiny["boundary"] = [{"box": [[-1, -1, -1], [1, 1, 1e-9]], "fix": True}]
+        tiny["solver"] = {"integrator": "verlet", "precision": "float", "duration": 0.01}
+        text = heml("explain", self.write("tiny.json", tiny))
+        self.assertIn("none: the stiffness of the body is no number that single precision can hold", text.stdout)
+        for word in ("nan", "inf "):
+            self.assertNotIn(word, text.stdout)
+
     def test_every_shipped_scene_is_explained(self):
         scenes = sorted((SOURCE / "assets" / "scenes").glob("*.json"))
         self.assertGreater(len(scenes), 3)

@@ -97,7 +97,7 @@ void advise_on_method(const Explanation& explained, std::vector<Advice>& advice)
                       fmt::format("the step of {:.3g} s is {:.3g} times shorter than stability asks", *solver.step,
                                   world.step.stable / *solver.step),
                       "leave `step` out unless the error in time matters"});
-  if (share > 1)
+  if (share > 1 && std::isfinite(share))
     advice.push_back({"real_time",
                       fmt::format("by the model of cost a simulated second takes about {:.2g} s of one core", share),
                       "\"integrator\": \"auto\", float precision, a coarser or better mesh"});

@@ -43,7 +43,7 @@ StepFacts WorldQueries<Real>::step_facts() const {
   NodeBounds<Real> nodes;
   const Real bound = s_.body.frequency_bound(s_.state.x.data(), s_.team, nodes, 0);
   const auto [element, share] = s_.body.largest_contribution(nodes.largest_node());
-  if (element < 0) return facts;
+  if (element < 0 || !std::isfinite(bound)) return facts;
   facts.element = s_.model->order.file_tet[static_cast<std::size_t>(element)];
   std::vector<Real> bounds = nodes.bounds();
   const double most = static_cast<double>(bounds[nodes.largest_node()]);

@@ -113,6 +113,29 @@ TEST_CASE("Richardson: two meshes of quadratic elements lead to their limit if i
   CHECK(extrapolate_quadratic({limit, limit}, linear, rest, mass).failure == linear.failure);
 }
 
+TEST_CASE("the mesh error of a scene of quadratic elements is known, as it is of the same scene of linear ones") {
+  const Problem linear = problem_of(parse_scene(R"({
+    "schema_version": 1, "name": "block",
+    "mesh": {"box": {"size": [0.1, 0.06, 0.06], "cells": [4, 2, 2]}},
+    "materials": [{"law": "neo_hookean", "young": 1e5, "poisson": 0.3}],
+    "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": true}],
+    "gravity": [0, -9.81, 0]})",
+                                                "folder/scene.json")),
+                quadratic = with_element(linear, "p2");
+  const MeshConvergenceStudy of_linear = study_mesh_convergence("block", linear, 2, {}),
+                             of_quadratic = study_mesh_convergence("block", quadratic, 2, {});
+  REQUIRE(of_quadratic.reference.failure.empty());
+  CHECK(of_quadratic.meshes.size() == steps_of_mesh_convergence_study(quadratic, 2));
+  const ConvergenceMesh *known = of_linear.find("p1", 1), *found = of_quadratic.find("p1", 1);
+  REQUIRE(known);
+  REQUIRE(found);
+  CHECK(found->error == doctest::Approx(known->error).epsilon(0.05));
+  const ConvergenceMesh* own = of_quadratic.find("p2", 0);
+  REQUIRE(own);
+  CHECK(own->error > 0);
+  CHECK(own->error < known->error);
+}
+
 TEST_CASE("a swing's frequency and decay are read off its turning points") {
   std::vector<double> t, u;
   constexpr double frequency = 7, decay = 3;
