@@ -3,6 +3,7 @@
 // an element of its own:
 //
 //   records of nodes ──transposed──► at[10] ──► for each point: virtual corners ──► law ──► forces ──► out[10] ──► back
+#include <heml/elastic/fours_of_lanes.hpp>
 #include <heml/elastic/point_kernels.hpp>
 #include <heml/elastic/tension.hpp>
 #include <heml/materials/law_packs.hpp>
@@ -15,9 +16,8 @@ template <class P, class L>
 struct PointForceKernel {
   using Real = Lane<P>;
   using Block = PointBlock<Real>;
-  using Part = Four<Real>;
-  static constexpr std::size_t lanes = P::lanes, parts = lanes / 4, constants = L::uses_I4 ? 10 : 7;
-  static_assert(parts == 1 || parts == 2 || parts == 4);
+  using Fours = FoursOfLanes<P>;
+  static constexpr std::size_t lanes = P::lanes, parts = Fours::parts, constants = L::uses_I4 ? 10 : 7;
 
   /// Quantities of the elements in the lanes.
   struct Elements {
@@ -27,103 +27,12 @@ struct PointForceKernel {
     P shared[4][3];                   ///< what corner i of every point shares (quadratic_map.hpp)
   };
 
-  using Vector = typename P::Vector;
-
-  /// One row of each part side by side.
-  [[gnu::always_inline]] static inline Vector joined(const Part (&row)[parts]) {
-    if constexpr (parts == 1)
-      return static_cast<Vector>(row[0]);
-    else if constexpr (parts == 2)
-      return static_cast<Vector>(__builtin_shufflevector(row[0], row[1], 0, 1, 2, 3, 4, 5, 6, 7));
-    else {
-      const auto low = __builtin_shufflevector(row[0], row[1], 0, 1, 2, 3, 4, 5, 6, 7);
-      const auto high = __builtin_shufflevector(row[2], row[3], 0, 1, 2, 3, 4, 5, 6, 7);
-      return static_cast<Vector>(
-          __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
-    }
-  }
-
-  /// In each part rows[i][j] becomes rows[j][i].
-  [[gnu::always_inline]] static inline void transpose_parts(Vector (&rows)[4]) {
-    if constexpr (parts == 1) {
-      transpose(rows);
-    } else {
-      const auto pairs = [](const Vector& a, const Vector& b, Vector& even, Vector& odd) {
-        if constexpr (parts == 2) {
-          even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-          odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-        } else {
-          even = __builtin_shufflevector(a, b, 0, 16, 2, 18, 4, 20, 6, 22, 8, 24, 10, 26, 12, 28, 14, 30);
-          odd = __builtin_shufflevector(a, b, 1, 17, 3, 19, 5, 21, 7, 23, 9, 25, 11, 27, 13, 29, 15, 31);
-        }
-      };
-      const auto halves = [](const Vector& a, const Vector& b, Vector& low, Vector& high) {
-        if constexpr (parts == 2) {
-          low = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-          high = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-        } else {
-          low = __builtin_shufflevector(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29);
-          high = __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
-        }
-      };
-      Vector even01, odd01, even23, odd23;
-      pairs(rows[0], rows[1], even01, odd01);
-      pairs(rows[2], rows[3], even23, odd23);
-      halves(even01, even23, rows[0], rows[2]);
-      halves(odd01, odd23, rows[1], rows[3]);
-    }
-  }
-
-  [[gnu::always_inline]] static inline P pack_at(const Real* values) {
-    P p;
-    std::memcpy(&p.v, values, sizeof p.v);
-    return p;
-  }
-
-  /// 4 lanes values, [lane][point], as packs of points.
-  [[gnu::always_inline]] static inline void by_point(const Real* values, P (&of_point)[4]) {
-    if constexpr (parts == 1) {
-      Part rows[4] = {read_four(values), read_four(values + 4), read_four(values + 8), read_four(values + 12)};
-      transpose(rows);
-      for (std::size_t q = 0; q < 4; ++q) of_point[q].v = static_cast<Vector>(rows[q]);
-    } else if constexpr (parts == 4) {
-      const auto a = pack_at(values).v, b = pack_at(values + 16).v, c = pack_at(values + 32).v,
-                 d = pack_at(values + 48).v;
-      const auto ab01 = __builtin_shufflevector(a, b, 0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25, 29);
-      const auto ab23 = __builtin_shufflevector(a, b, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
-      const auto cd01 = __builtin_shufflevector(c, d, 0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25, 29);
-      const auto cd23 = __builtin_shufflevector(c, d, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
-      of_point[0].v = __builtin_shufflevector(ab01, cd01, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
-      of_point[1].v = __builtin_shufflevector(ab01, cd01, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
-      of_point[2].v = __builtin_shufflevector(ab23, cd23, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
-      of_point[3].v = __builtin_shufflevector(ab23, cd23, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
-    } else {
-      const auto a = pack_at(values).v, b = pack_at(values + 8).v, c = pack_at(values + 16).v,
-                 d = pack_at(values + 24).v;
-      const auto ab01 = __builtin_shufflevector(a, b, 0, 4, 8, 12, 1, 5, 9, 13);
-      const auto ab23 = __builtin_shufflevector(a, b, 2, 6, 10, 14, 3, 7, 11, 15);
-      const auto cd01 = __builtin_shufflevector(c, d, 0, 4, 8, 12, 1, 5, 9, 13);
-      const auto cd23 = __builtin_shufflevector(c, d, 2, 6, 10, 14, 3, 7, 11, 15);
-      of_point[0].v = __builtin_shufflevector(ab01, cd01, 0, 1, 2, 3, 8, 9, 10, 11);
-      of_point[1].v = __builtin_shufflevector(ab01, cd01, 4, 5, 6, 7, 12, 13, 14, 15);
-      of_point[2].v = __builtin_shufflevector(ab23, cd23, 0, 1, 2, 3, 8, 9, 10, 11);
-      of_point[3].v = __builtin_shufflevector(ab23, cd23, 4, 5, 6, 7, 12, 13, 14, 15);
-    }
-  }
-
   [[gnu::always_inline]] static inline void read_positions(const Real* records, Elements& of) {
     for (std::size_t a = 0; a < 10; ++a) {
-      Vector rows[4];
-#pragma GCC unroll 4
-      for (std::size_t l = 0; l < 4; ++l) {
-        Part row[parts];
-#pragma GCC unroll 4
-        for (std::size_t k = 0; k < parts; ++k) row[k] = read_four(records + of.index[4 * k + l][a]);
-        rows[l] = joined(row);
-      }
-      transpose_parts(rows);
+      P place[4];
+      Fours::read([&](std::size_t lane) { return records + of.index[lane][a]; }, place);
 #pragma GCC unroll 3
-      for (std::size_t i = 0; i < 3; ++i) of.at[a][i] = a == 0 ? P(rows[i]) : P(rows[i]) - of.at[0][i];
+      for (std::size_t i = 0; i < 3; ++i) of.at[a][i] = a == 0 ? place[i] : place[i] - of.at[0][i];
     }
 #pragma GCC unroll 3
     for (std::size_t i = 0; i < 3; ++i) of.at[0][i] = P(0);
@@ -165,7 +74,7 @@ struct PointForceKernel {
   [[gnu::always_inline]] static inline void read_rest(const Elements& of, RestShape<P> (&rest)[4]) {
     for (std::size_t c = 0; c < constants; ++c) {
       P of_point[4];
-      by_point(of.constant[c], of_point);
+      Fours::read([&](std::size_t lane) { return of.constant[c] + 4 * lane; }, of_point);
 #pragma GCC unroll 4
       for (std::size_t q = 0; q < 4; ++q)
         (c < 6 ? rest[q].A[c] : c == 6 ? rest[q].volume : rest[q].fibre[c - 7]).v = of_point[q].v;
@@ -186,12 +95,10 @@ struct PointForceKernel {
   /// on the number of lanes.
   [[gnu::always_inline]] static inline void add(const P (&out)[10][3], const Elements& of, std::size_t count,
                                                 Real* records) {
-    alignas(64) Real of_lane[10][4][lanes];  // of lanes l, 4 + l, 8 + l, ... x y z ·
+    alignas(64) Real of_lane[10][4][lanes];
     for (std::size_t a = 0; a < 10; ++a) {
-      Vector rows[4] = {out[a][0].v, out[a][1].v, out[a][2].v, Vector{}};
-      transpose_parts(rows);
-#pragma GCC unroll 4
-      for (std::size_t l = 0; l < 4; ++l) std::memcpy(of_lane[a][l], &rows[l], sizeof rows[l]);
+      const P rows[4] = {out[a][0], out[a][1], out[a][2], P(0)};
+      Fours::write(rows, of_lane[a]);
     }
     for (std::size_t k = 0; k < parts && 4 * k < count; ++k)
       if (4 * k + 4 <= count)
@@ -208,7 +115,7 @@ struct PointForceKernel {
     read_rest(of, rest);
     P pressure(0);
     if constexpr (L::has_volume_term)
-      if (kappa) pressure = mean_pressure(of, rest, pack_at(kappa));
+      if (kappa) pressure = mean_pressure(of, rest, Fours::pack_at(kappa));
     P out[10][3], sum[4][3];
     for (auto& of_node : out)
       for (P& value : of_node) value = P(0);
@@ -253,7 +160,7 @@ struct PointForceKernel {
 #pragma GCC unroll 4
     for (std::size_t n = 0; n < count; ++n, record += 8) {
       write_four(n + 1 < count ? read_four(x + place[n]) : read_three(x + place[n]), record);
-      write_four(Part{}, record + 4);
+      write_four(Four<Real>{}, record + 4);
     }
   }
 
