@@ -36,6 +36,24 @@ struct FoursOfLanes {
     for (std::size_t i = 0; i < 4; ++i) packs[i].v = rows[i];
   }
 
+  /// The same where each lane's follow those of the lane before.
+  [[gnu::always_inline]] static inline void read(const Real* values, P (&packs)[4]) {
+    if constexpr (parts == 2) {  // a tenth of a kernel in double
+      const auto a = pack_at(values).v, b = pack_at(values + 8).v, c = pack_at(values + 16).v,
+                 d = pack_at(values + 24).v;
+      const auto ab01 = __builtin_shufflevector(a, b, 0, 4, 8, 12, 1, 5, 9, 13);
+      const auto ab23 = __builtin_shufflevector(a, b, 2, 6, 10, 14, 3, 7, 11, 15);
+      const auto cd01 = __builtin_shufflevector(c, d, 0, 4, 8, 12, 1, 5, 9, 13);
+      const auto cd23 = __builtin_shufflevector(c, d, 2, 6, 10, 14, 3, 7, 11, 15);
+      packs[0].v = __builtin_shufflevector(ab01, cd01, 0, 1, 2, 3, 8, 9, 10, 11);
+      packs[1].v = __builtin_shufflevector(ab01, cd01, 4, 5, 6, 7, 12, 13, 14, 15);
+      packs[2].v = __builtin_shufflevector(ab23, cd23, 0, 1, 2, 3, 8, 9, 10, 11);
+      packs[3].v = __builtin_shufflevector(ab23, cd23, 4, 5, 6, 7, 12, 13, 14, 15);
+    } else {
+      read([values](std::size_t lane) { return values + 4 * lane; }, packs);
+    }
+  }
+
   /// The four numbers of lane 4 k + l begin at to[l][4 k].
   [[gnu::always_inline]] static inline void write(const P (&packs)[4], Real (&to)[4][lanes]) {
     Vector rows[4] = {packs[0].v, packs[1].v, packs[2].v, packs[3].v};

@@ -74,7 +74,7 @@ struct PointForceKernel {
   [[gnu::always_inline]] static inline void read_rest(const Elements& of, RestShape<P> (&rest)[4]) {
     for (std::size_t c = 0; c < constants; ++c) {
       P of_point[4];
-      Fours::read([&](std::size_t lane) { return of.constant[c] + 4 * lane; }, of_point);
+      Fours::read(of.constant[c], of_point);
 #pragma GCC unroll 4
       for (std::size_t q = 0; q < 4; ++q)
         (c < 6 ? rest[q].A[c] : c == 6 ? rest[q].volume : rest[q].fibre[c - 7]).v = of_point[q].v;
