@@ -210,7 +210,7 @@ inline constexpr KeyInfo solver[] = {
      "ticks a second, where no step is given; explicit methods take as many stable steps a tick as it needs"},
     {"duration", form::non_negative, "s", "", "of `heml solve`"},
     {"damping", form::non_negative, "1/s", "", "proportional to mass"},
-    {"mass_scaling", form::between(0, 1), "", "",
+    {"mass_scaling", form::between(0, 1), "", "`0`",
      "share of the mass that may be added at nodes that limit the steps of explicit methods; gravity acts on the true "
      "masses"},
     {"precision", form::one_of<precision_names>(), "", "",

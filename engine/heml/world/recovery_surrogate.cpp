@@ -40,7 +40,7 @@ RecoverySurrogate<Real>::RecoverySurrogate(const Shared<Model<Real>>& model, con
                                            const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
                                            ThreadTeam& team)
     : body(model->mesh, model->material_of, surrogate_materials(model->mesh, model->material_of, setup.materials),
-           {false, false, setup.instruction_set, setup.solver.threads}, model->midedges),
+           {false, false, setup.instruction_set, 0, setup.solver.threads}, model->midedges),
       implicit(body, model, masses,
                preconditioner_moduli(model->mesh, model->material_of, setup.materials, Minimiser::newton), grasps,
                contacts, team, {}, setup.instruction_set) {
