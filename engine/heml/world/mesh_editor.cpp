@@ -168,6 +168,7 @@ void MeshEditor<Real>::set_burns(std::vector<Burn> burns) {
   for (const int t : s_.model->order.file_tet) inner.push_back(burns[static_cast<std::size_t>(t)]);
   s_.body.set_burns(inner);
   s_.setup.write().mesh.burns = std::move(burns);
+  if (s_.setup->solver.mass_scaling > 0) s_.update_masses();  // factors are of rest shapes
   s_.implicit.reset();
   follow_rest_shapes();
 }

@@ -167,6 +167,13 @@ TEST_CASE("mass scaling: cuts, materials and what takes them back leave masses a
     check();
     REQUIRE(world->apply(StepHistory{-1}).ok());
     check();
+    // Heat shrinks elements for a while: smaller ones, other factors.
+    CauterizeTissue burn;
+    burn.sweep.blades = {{Vec3(0.02, 0.02, -0.01), Vec3(0.02, 0.02, -0.01)},
+                         {Vec3(0.02, 0.02, 0.03), Vec3(0.02, 0.02, 0.03)}};
+    burn.heat = {0.008, usual_shrink};
+    REQUIRE(world->apply(burn).ok());
+    for (int k = 0; k < 100; ++k) check();
   }
 }
 
