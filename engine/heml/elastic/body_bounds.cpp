@@ -215,6 +215,8 @@ template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&);
 template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&, NodeBounds<float>&, int);
 template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&);
 template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&, NodeBounds<double>&, int);
+template const std::vector<float>& ElasticBody<float>::mass_factors(ThreadTeam&);
+template const std::vector<double>& ElasticBody<double>::mass_factors(ThreadTeam&);
 template ElasticBody<float>::Contribution ElasticBody<float>::largest_contribution(std::size_t) const;
 template ElasticBody<double>::Contribution ElasticBody<double>::largest_contribution(std::size_t) const;
 
