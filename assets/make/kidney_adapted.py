@@ -39,7 +39,7 @@ def main(heml, make_assets):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         subprocess.run([make_assets, name, "kidney_coarse"], check=True)
-        scene["mesh"]["file"] = scene["mesh"].pop("asset") and "kidney_coarse.mesh"
+        scene["mesh"] = {"file": "kidney_coarse.mesh", "rotate": rotate}
         scene["solver"] |= {"element": "p2", "precision": "float"}
         scene["events"][0]["grasp"] = {"point": [round(x, 4) for x in taken], "radius": scene["events"][0]["grasp"]["radius"]}
         # Of corners alone: spheres would take middles of edges that reach out of them too.
