@@ -60,6 +60,7 @@ void LowRankUpdate::set(SmoothedAggregation& P, const std::vector<RankOneTerm>& 
   rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
   for (const RankOneTerm& term : terms) {
     Term& own = terms_.emplace_back(Term{});
+    own.sign = term.sign;
     for (std::size_t k = 0; k < static_cast<std::size_t>(term.count); ++k) {
       const int row = row_of(term.nodes[k]);
       if (row < 0) continue;
@@ -79,7 +80,7 @@ bool LowRankUpdate::is_held(int coordinate) const {
 void LowRankUpdate::find_correction(SmoothedAggregation& P) {
   find_columns(P);
   for (const Term& term : terms_)
-    if (coupling(term, term) > weakest_term) strong_.push_back(term);
+    if (term.sign > 0 && coupling(term, term) > weakest_term) strong_.push_back(term);
   keep_strongest();
   const auto size = static_cast<Eigen::Index>(strong_.size());
   Eigen::MatrixXd S(size, size);
@@ -140,7 +141,7 @@ void LowRankUpdate::add_product(const MultiVector& p, MultiVector& q) const {
     for (std::size_t k = 0; k < static_cast<std::size_t>(term.count); ++k)
       along += term.g[k].dot(p[rows_[term.at[k]]].head<3>().cast<double>().matrix());
     for (std::size_t k = 0; k < static_cast<std::size_t>(term.count); ++k)
-      q[rows_[term.at[k]]].head<3>() += (along * term.g[k]).cast<float>().array();
+      q[rows_[term.at[k]]].head<3>() += (term.sign * along * term.g[k]).cast<float>().array();
   }
 }
 

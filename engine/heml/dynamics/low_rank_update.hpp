@@ -41,6 +41,7 @@ class LowRankUpdate {
     int count;
     std::array<std::size_t, 4> at;  ///< places in rows_
     std::array<Vec3, 4> g;
+    double sign;
   };
   bool is_held(int coordinate) const;
   void find_correction(SmoothedAggregation& P);

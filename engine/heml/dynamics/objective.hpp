@@ -11,11 +11,12 @@ namespace heml {
 
 class BsrMatrix;
 
-/// A part g gᵀ of a stiffness, between few nodes.
+/// A part sign g gᵀ of a stiffness, between few nodes.
 struct RankOneTerm {
   int count;                 ///< of nodes
   std::array<int, 4> nodes;  ///< all different
   std::array<Vec3, 4> g;     ///< √(N/m)
+  double sign = 1;           ///< or −1; preconditioners leave those out
 };
 
 using Vector = Eigen::VectorXd;  ///< 3 #V: node after node

@@ -60,6 +60,7 @@ void ContactPotential::reset() {
   surfaces_.clear();
   pairs_.clear();
   bearing_.clear();
+  seen_pairs_.clear();
   touches_at_.resize(0);
 }
 
@@ -80,15 +81,18 @@ void ContactPotential::find(const Vector& x) {
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     if (surfaces_[s].shape != ContactSurface::Shape::tissue) {
       each_contact(surfaces_[s], contacts_.boundary, near, where, [&](const ContactPoint& point) {
-        active_.push_back({s, point});
+        active_.push_back({s, point, 0});
       });
       continue;
     }
     for (const ContactPair& pair : pairs_)
-      if (const auto point = point_of(pair, where); point && point->gap < near) active_.push_back({s, *point});
+      if (const auto point = point_of(pair, where); point && point->gap < near)
+        active_.push_back({s, *point, pair.side});
   }
   touches_at_ = x;
 }
+
+void ContactPotential::expect(const Vector& x) { add_touching_pairs(x); }
 
 /// Adds to pairs_ those that touch on the way to x. Returns whether a new pair penetrates at x by more than the bound.
 bool ContactPotential::add_touching_pairs(const Vector& x) {
@@ -127,7 +131,8 @@ double ContactPotential::friction_stiffness(const Friction& friction) const {
 
 /// Stretch of a point's friction spring, m.
 Vec3 ContactPotential::sliding(const Friction& friction, const Vector& x) const {
-  const auto& [surface, point] = friction.touch;
+  const ContactPoint& point = friction.touch.point;
+  const std::size_t surface = friction.touch.surface;
   const Vec3 displacement =
       at(x, point) - at(x_before_, point) - (surfaces_[surface].point - surfaces_before_[surface].point);
   return tangent_projector(point.normal) * (displacement + friction.stretch);
@@ -200,11 +205,22 @@ void ContactPotential::update_duals(const Vector& x) {
   step_taken_ = 0;
 }
 
-void ContactPotential::linearise(const Vector& x) {
+/// Whether the pairs in contact are those of the last call. Newton's method has then come near enough for what pairs do
+/// in second order; before, it would meet negative curvature that a solution has not.
+bool ContactPotential::is_settled() {
+  std::vector<std::array<int, 4>> now;
+  for (const ActiveContact& touch : active_)
+    if (touch.point.count == 4) now.push_back(touch.point.nodes);
+  std::swap(now, seen_pairs_);
+  return now == seen_pairs_;
+}
+
+void ContactPotential::linearise(const Vector& x, bool positive) {
   find(x);
   x_seen_ = x;
   blocks_.clear();
   slides_.clear();
+  const bool has_slides = !positive && is_settled();
   for (const ActiveContact& touch : active_) {
     const Vec3& n = touch.point.normal;
     const double k = normal_stiffness(touch), force = -k * std::min(0.0, touch.point.gap);
@@ -216,6 +232,9 @@ void ContactPotential::linearise(const Vector& x) {
     if (touch.point.count == 3)
       add_face_slides(surfaces_[touch.surface], touch.point, {at(x, nodes[0]), at(x, nodes[1]), at(x, nodes[2])}, force,
                       slides_);
+    if (touch.point.count == 4 && has_slides)
+      add_pair_slides(touch.side, touch.point, {at(x, nodes[0]), at(x, nodes[1]), at(x, nodes[2]), at(x, nodes[3])},
+                      force, slides_);
   }
   update_duals(x);
   for (const Friction& friction : friction_) {
@@ -236,10 +255,11 @@ void ContactPotential::linearise(const Vector& x) {
 
 void ContactPotential::add_product(const Vector& dx, Vector& out) const {
   for (const auto& [point, K] : blocks_) add(point, K * at(dx, point), out);
-  for (const auto& [nodes, g] : slides_) {
+  for (const RankOneTerm& slide : slides_) {
+    const auto count = static_cast<std::size_t>(slide.count);
     double along = 0;
-    for (std::size_t k = 0; k < 3; ++k) along += g[k].dot(at(dx, nodes[k]));
-    for (std::size_t k = 0; k < 3; ++k) out.segment<3>(3 * nodes[k]) += along * g[k];
+    for (std::size_t k = 0; k < count; ++k) along += slide.g[k].dot(at(dx, slide.nodes[k]));
+    for (std::size_t k = 0; k < count; ++k) out.segment<3>(3 * slide.nodes[k]) += slide.sign * along * slide.g[k];
   }
 }
 
@@ -257,8 +277,7 @@ void ContactPotential::add_rank_one_terms(std::vector<RankOneTerm>& terms) const
       terms.push_back({point.count, point.nodes, g});
     }
   }
-  for (const auto& [nodes, g] : slides_)
-    terms.push_back({3, {nodes[0], nodes[1], nodes[2], 0}, {g[0], g[1], g[2], Vec3::Zero()}});
+  terms.insert(terms.end(), slides_.begin(), slides_.end());
 }
 
 /// Friction of the active contacts, bounded by the normal forces at x. Springs that exist keep their stretch.

@@ -18,6 +18,7 @@
 #include <heml/dynamics/objective.hpp>
 #include <heml/tools/contacts.hpp>
 #include <heml/tools/face_slide.hpp>
+#include <heml/tools/pair_slide.hpp>
 
 namespace heml {
 
@@ -27,6 +28,7 @@ class ContactPotentialMemory {
   struct ActiveContact {
     std::size_t surface;
     ContactPoint point;
+    int side = 0;  ///< ContactPair::side
   };
   struct Friction {
     ActiveContact touch;
@@ -46,11 +48,12 @@ class ContactPotentialMemory {
   std::vector<ContactSurface> surfaces_, surfaces_before_;
   bool with_tissue_ = true;
   std::vector<ContactPair> pairs_;  ///< of self-contact, constant during a solve; ascending
-  std::vector<ContactPair> bearing_;  ///< those that bore a load when the last step ended; ascending
+  std::vector<std::array<int, 4>> seen_pairs_;  ///< nodes of those in contact at the last linearise()
+  std::vector<ContactPair> bearing_;            ///< those that bore a load when the last step ended; ascending
   Vector x_before_, touches_at_, x_seen_;
   std::vector<ActiveContact> active_;  ///< at positions touches_at_
   std::vector<Block> blocks_;
-  std::vector<FaceSlide> slides_;
+  std::vector<RankOneTerm> slides_;
   int revisions_ = 0;
   double step_taken_ = 0;  ///< since the last linearise(), of Newton's
 };
@@ -67,6 +70,9 @@ class ContactPotential : private ContactPotentialMemory {
   /// Starts a step or load increment at x (#V×3, m) and time (s). Sliding is measured from x. Assumptions of a failed
   /// attempt are discarded.
   void begin(const Vector& x, double time);
+  /// Adds the pairs that touch on the way to x, where the tissue would be without contact. What is not expected, and
+  /// crosses in a solution, update_lagged() finds.
+  void expect(const Vector& x);
   /// Discards all contact state; call it when surfaces were added or removed.
   void reset();
   /// Switches self-contact off for good.
@@ -79,9 +85,10 @@ class ContactPotential : private ContactPotentialMemory {
   bool crosses_probe(const Vector& x) const;
   double value(const Vector& x);
   void add_forces(const Vector& x, Vector& f);
-  /// Evaluates the stiffness at x for the calls below, positive semidefinite: the negative part of a probe's geometric
-  /// stiffness is left out (face_slide.hpp).
-  void linearise(const Vector& x);
+  /// Evaluates the stiffness at x for the calls below. The negative part of a probe's geometric stiffness is left out
+  /// (face_slide.hpp). That of pairs, which is indefinite (pair_slide.hpp), is there where the pairs in contact are
+  /// those of the last call, unless the stiffness shall be `positive`.
+  void linearise(const Vector& x, bool positive = false);
   /// Since linearise(), this part of the step that its stiffness suggests was taken.
   void step_taken(double part) { step_taken_ = part; }
   void add_product(const Vector& dx, Vector& out) const;
@@ -105,6 +112,7 @@ class ContactPotential : private ContactPotentialMemory {
  private:
   void find(const Vector& x);
   bool add_touching_pairs(const Vector& x);
+  bool is_settled();
   double stiffness_of(const ContactPoint& point) const;
   double normal_stiffness(const ActiveContact& touch) const;
   double friction_stiffness(const Friction& friction) const;
@@ -124,9 +132,11 @@ void ContactPotential::each_block(const Visit& visit) const {
       for (std::size_t b = 0; b <= a; ++b)
         if (const double weight = point.weights[a] * point.weights[b]; weight != 0 && (a == b || point.count == 3))
           visit(point.nodes[a], point.nodes[b], Mat3(weight * K));
-  for (const auto& [nodes, g] : slides_)
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b <= a; ++b) visit(nodes[a], nodes[b], Mat3(g[a] * g[b].transpose()));
+  for (const RankOneTerm& slide : slides_)
+    if (slide.count == 3)
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t b = 0; b <= a; ++b)
+          visit(slide.nodes[a], slide.nodes[b], Mat3(slide.g[a] * slide.g[b].transpose()));
 }
 
 }  // namespace heml

@@ -60,7 +60,7 @@ std::optional<Direction> direction_on_axis(const ContactSurface& capsule, const 
 }  // namespace
 
 void add_face_slides(const ContactSurface& capsule, const ContactPoint& point, const std::array<Vec3, 3>& x,
-                     double force, std::vector<FaceSlide>& out) {
+                     double force, std::vector<RankOneTerm>& out) {
   const double distance = point.gap + capsule.radius;
   if (!(distance > 0) || !(force > 0)) return;
   std::vector<Direction> directions = directions_on_face(point, x);
@@ -72,7 +72,7 @@ void add_face_slides(const ContactSurface& capsule, const ContactPoint& point, c
     const auto of_corner = [&](std::size_t k) -> Vec3 {
       return std::sqrt(force * d) * (point.weights[k] / d * direction.along + direction.rate[k] * point.normal);
     };
-    out.push_back({{point.nodes[0], point.nodes[1], point.nodes[2]}, {of_corner(0), of_corner(1), of_corner(2)}});
+    out.push_back({3, point.nodes, {of_corner(0), of_corner(1), of_corner(2), Vec3::Zero()}});
   }
 }
 

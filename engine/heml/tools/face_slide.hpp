@@ -10,21 +10,15 @@
 // N (d u² + 2 u·t) = N d (u + t/d)² − N t²/d. The square is kept, as products of vectors. It is no small matter: beside
 // the stiffness of the tissue it is as the width of the contact to the size of the face. What is left out is negative,
 // and small as t²/d is of a probe that is large for the face.
+#include <heml/dynamics/objective.hpp>
 #include <heml/tools/contact_surface.hpp>
-#include <vector>
 
 namespace heml {
-
-/// Stiffness of one way in which a contact point slides: gᵢ gⱼᵀ between the corners i and j of the face.
-struct FaceSlide {
-  std::array<int, 3> nodes;
-  std::array<Vec3, 3> g;  ///< √(N/m)
-};
 
 /// Adds the ways of a point of capsule_face_contact() with its corners at x (m): two inside a face, or on an edge that
 /// crosses the middle of the axis; one on an edge nearest to an end, or at a corner beside the axis; none of a face
 /// that the axis passes through. force: N, of the contact.
 void add_face_slides(const ContactSurface& capsule, const ContactPoint& point, const std::array<Vec3, 3>& x,
-                     double force, std::vector<FaceSlide>& out);
+                     double force, std::vector<RankOneTerm>& out);
 
 }  // namespace heml

@@ -70,6 +70,11 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   /// Moves tools alone to where they are at a time, s.
   void move_tools(double time);
   void reset_contact() { contact_.reset(); }
+  /// ContactPotential::expect().
+  void expect_contact(const Vector& x) {
+    contact_.expect(x);
+    clear_cache();
+  }
   /// From now on tissue passes tissue.
   void disable_self_contact() { contact_.disable_self_contact(); }
   /// Adds what contact does at x, where the last step has ended, N.

@@ -57,7 +57,7 @@ void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
   with_body([&](auto& body) { body.project(projection, team_); });
   const bool with_pressure = !model_->pressures.empty() && projection == Projection::none;
   linearisation_point_ = with_pressure ? x : Vector();
-  if (!contact_.empty()) contact_.linearise(x);
+  if (!contact_.empty()) contact_.linearise(x, projection != Projection::none);
 }
 
 template <class Real>

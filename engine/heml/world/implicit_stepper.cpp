@@ -7,6 +7,7 @@
 #include <heml/dynamics/lbfgs.hpp>
 #include <heml/world/failure.hpp>
 #include <heml/world/implicit_stepper.hpp>
+#include <heml/world/stage_start.hpp>
 #include <limits>
 #include <utility>
 
@@ -205,7 +206,8 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
   parts.linear.set_inertia(stage.a(damping));
   const int substeps = probe_substeps(h);
   parts.body.move_tools(time - h * (substeps - 1) / substeps);
-  x = stage_start(stage, time, x);
+  if (s_.setup->solver.budget) expect_contact(s_, stage, time, x);
+  x = stage_start(s_, stage, time, x);
   NewtonResult result;
   bool is_lagging = false;  // contact pairs or friction still change with each solve
   for (int substep = 1; substep <= substeps; ++substep) {
@@ -266,44 +268,6 @@ NewtonResult ImplicitStepper<Real>::minimise_stage(double least_limit, Vector& x
   NewtonOptions options;
   options.max_iterations = most;
   return minimise(parts.step, parts.linear, criterion, options, x);
-}
-
-template <class Real>
-void ImplicitStepper<Real>::place_supports(double time, Vector& x) const {
-  for (const ConstrainedNode& constrained : s_.model->constrained)
-    set_along(constrained.axes, constrained.node, prescribed_at(*s_.model, constrained, time).x, x);
-}
-
-/// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations
-/// gain energy without bound); where held nodes move so far that neither is possible, along the tangent.
-template <class Real>
-Vector ImplicitStepper<Real>::stage_start(const Stage& stage, double time, const Vector& x) {
-  ImplicitState<Real>& parts = s_.implicit_state();
-  Vector stay = x, fly = stage.y(s_.setup->solver.damping), r_stay, r_fly, r;
-  for (Eigen::Index i = 0; i < fly.size(); ++i)
-    if (!(parts.mass[i] > 0)) fly[i] = x[i];
-  place_supports(time, stay);
-  place_supports(time, fly);
-  const auto is_defined = [&](const Vector& at, Vector& r_there) {
-    return parts.step.residual(at, r_there) && r_there.allFinite();
-  };
-  const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
-  if (staying && flying) {
-    const bool flies = *flying < *staying;
-    const Vector &lower = flies ? fly : stay, &higher = flies ? stay : fly;
-    if (is_defined(lower, r)) return lower;
-    if (is_defined(higher, r)) return higher;
-  } else {
-    const bool can_stay = is_defined(stay, r_stay), can_fly = is_defined(fly, r_fly);
-    if (can_stay && can_fly) return r_fly.norm() < r_stay.norm() ? fly : stay;
-    if (can_stay || can_fly) return can_stay ? stay : fly;
-  }
-  Vector stretched, d;
-  if (!parts.step.residual(x, r)) return stay;
-  parts.step.linearise(x);
-  parts.step.product(stay - x, stretched);
-  r -= stretched;
-  return parts.linear.solve(parts.step, r, 1e-2, d) ? Vector(stay + d) : stay;
 }
 
 /// `solver.tolerance` of scenes: the residual relative to the forces carried.
@@ -370,7 +334,7 @@ void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vecto
   Vector start = parts.x;
   if (supports_move(*s_.model, s_.state.time, time)) {
     if (!takes_best_) return;
-    place_supports(time, start);
+    place_supports(*s_.model, time, start);
   }
   const auto at_start = parts.body.value(start);  // with the loads of the end: what they do on the way is in it
   if (!at_start && !takes_best_) return;

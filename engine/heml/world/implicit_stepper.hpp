@@ -42,8 +42,6 @@ class ImplicitStepper {
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
   NewtonResult minimise_stage(double least_limit, Vector& x);
   int probe_substeps(double h) const;
-  Vector stage_start(const Stage& stage, double time, const Vector& x);
-  void place_supports(double time, Vector& x) const;
   StoppingCriterion stage_criterion();
   bool is_balanced_enough(const Stage& stage, const Vector& r);
   void limit_energy(double h, double time, Vector& x, Vector& v);

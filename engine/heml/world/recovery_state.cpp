@@ -8,7 +8,8 @@ namespace heml {
 namespace {
 
 constexpr double tool_interval = 0.02;       // s: commands that move a tool arrive at about 60 Hz
-constexpr std::size_t element_grain = 2048;  // whose volumes outweigh the cost of waking a thread; of four points: 512
+constexpr std::size_t element_grain = 2048;  // whose volumes outweigh the cost of waking a thread
+constexpr std::size_t quadratic_grain = 128;  // of four points each, whose positions have to be found first
 
 template <class Real>
 Vec3 at(const std::vector<Real>& values, int node) {
@@ -101,7 +102,7 @@ StateCheck RecoveryState<Real>::check(const Model<Real>& model, const State<Real
   StateCheck check;
   const auto x = [&](int n) { return at(state.x, n); };
   std::mutex mutex;
-  const std::size_t grain = model.midedges.empty() ? element_grain : element_grain / element_points;
+  const std::size_t grain = model.midedges.empty() ? element_grain : quadratic_grain;
   team.parallel_for(model.mesh.tets.size(), grain, [&](std::size_t begin, std::size_t end) {
     const StateCheck part = check_elements(*this->reference, model, x, begin, end);
     std::lock_guard lock(mutex);

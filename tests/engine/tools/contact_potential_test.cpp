@@ -108,7 +108,7 @@ Eigen::MatrixXd matrix_of_terms(const ContactPotential& potential, Eigen::Index 
   for (const RankOneTerm& term : terms) {
     Vector g = Vector::Zero(size);
     for (std::size_t k = 0; k < static_cast<std::size_t>(term.count); ++k) g.segment<3>(3 * term.nodes[k]) = term.g[k];
-    sum += g * g.transpose();
+    sum += term.sign * g * g.transpose();
   }
   return sum;
 }
@@ -398,6 +398,15 @@ TEST_CASE("tissue that met tissue on the way is pushed back with the slope of it
   CHECK(sum.norm() < 1e-12 * f.norm());
   CHECK(moment.norm() < 1e-12 * f.norm());
   CHECK(gradient_error(potential, crossed + 0.01 * random_direction(random, 24)) < 1e-8);
+  const auto least_eigenvalue = [&] {
+    return matrix_of_terms(potential, 24).selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+  };
+  potential.linearise(crossed);
+  CHECK(least_eigenvalue() > -1e-10 * k);  // the pair is new
+  potential.linearise(crossed);
+  CHECK(least_eigenvalue() < -0.01 * k);
+  potential.linearise(crossed, true);
+  CHECK(least_eigenvalue() > -1e-10 * k);
   const Eigen::MatrixXd K = matrix_of_products(potential, crossed);
   CHECK(K.norm() > k);
   CHECK((matrix_of_terms(potential, K.rows()) - K).norm() < 1e-8 * K.norm());

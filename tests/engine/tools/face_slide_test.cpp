@@ -70,9 +70,9 @@ Mat9 stiffness_of(const ContactSurface& capsule, const ContactPoint& point, cons
   Vec9 along;
   for (int k = 0; k < 3; ++k) along.segment<3>(3 * k) = point.weights[static_cast<std::size_t>(k)] * point.normal;
   Mat9 K = stiffness * along * along.transpose();
-  std::vector<FaceSlide> slides;
+  std::vector<RankOneTerm> slides;
   add_face_slides(capsule, point, x, -stiffness * point.gap, slides);
-  for (const FaceSlide& slide : slides) {
+  for (const RankOneTerm& slide : slides) {
     Vec9 g;
     for (int k = 0; k < 3; ++k) g.segment<3>(3 * k) = slide.g[static_cast<std::size_t>(k)];
     K += g * g.transpose();
@@ -139,7 +139,7 @@ TEST_CASE("a face that the axis passes through, or that carries no force, has no
   const Corners x{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
   const ContactSurface through{ContactSurface::Shape::capsule, {0, 0, -0.1}, {0, 0, 1}, 0.5, 0};
   const ContactSurface beside{ContactSurface::Shape::capsule, {0, 0, 0.4}, {0, 0, 1}, 0.5, 0};
-  std::vector<FaceSlide> slides;
+  std::vector<RankOneTerm> slides;
   add_face_slides(through, *contact(through, x), x, 10, slides);
   add_face_slides(beside, *contact(beside, x), x, 0, slides);
   CHECK(slides.empty());

@@ -1,0 +1,68 @@
+#include <heml/world/stage_start.hpp>
+
+namespace heml {
+namespace {
+
+/// Where velocities alone take free nodes.
+template <class Real>
+Vector flight(const Simulation<Real>& s, const Stage& stage, double time, const Vector& x) {
+  const Vector fly = stage.y(s.setup->solver.damping);
+  Vector result = (s.implicit->mass.array() > 0).select(fly, x);
+  place_supports(*s.model, time, result);
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+void place_supports(const Model<Real>& model, double time, Vector& x) {
+  for (const ConstrainedNode& constrained : model.constrained)
+    set_along(constrained.axes, constrained.node, prescribed_at(model, constrained, time).x, x);
+}
+
+template <class Real>
+Vector stage_start(Simulation<Real>& s, const Stage& stage, double time, const Vector& x) {
+  ImplicitState<Real>& parts = s.implicit_state();
+  Vector stay = x, r_stay, r_fly, r;
+  place_supports(*s.model, time, stay);
+  const Vector fly = flight(s, stage, time, x);
+  const auto is_defined = [&](const Vector& at, Vector& r_there) {
+    return parts.step.residual(at, r_there) && r_there.allFinite();
+  };
+  const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
+  if (staying && flying) {
+    const bool flies = *flying < *staying;
+    const Vector &lower = flies ? fly : stay, &higher = flies ? stay : fly;
+    if (is_defined(lower, r)) return lower;
+    if (is_defined(higher, r)) return higher;
+  } else {
+    const bool can_stay = is_defined(stay, r_stay), can_fly = is_defined(fly, r_fly);
+    if (can_stay && can_fly) return r_fly.norm() < r_stay.norm() ? fly : stay;
+    if (can_stay || can_fly) return can_stay ? stay : fly;
+  }
+  Vector stretched, d;
+  if (!parts.step.residual(x, r)) return stay;
+  parts.step.linearise(x);
+  parts.step.product(stay - x, stretched);
+  r -= stretched;
+  return parts.linear.solve(parts.step, r, 1e-2, d) ? Vector(stay + d) : stay;
+}
+
+template <class Real>
+void expect_contact(Simulation<Real>& s, const Stage& stage, double time, const Vector& x) {
+  if (!s.contacts.tissue) return;
+  Vector fall = flight(s, stage, time, x);
+  const Vec3 by_gravity = s.gravity() / stage.a(s.setup->solver.damping);
+  for (Eigen::Index i = 0; i < fall.size(); ++i)
+    if (s.implicit->mass[i] > 0) fall[i] += by_gravity[i % 3];
+  s.implicit->body.expect_contact(fall);
+}
+
+template void place_supports(const Model<float>&, double, Vector&);
+template void place_supports(const Model<double>&, double, Vector&);
+template Vector stage_start(Simulation<float>&, const Stage&, double, const Vector&);
+template Vector stage_start(Simulation<double>&, const Stage&, double, const Vector&);
+template void expect_contact(Simulation<float>&, const Stage&, double, const Vector&);
+template void expect_contact(Simulation<double>&, const Stage&, double, const Vector&);
+
+}  // namespace heml
