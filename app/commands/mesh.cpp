@@ -36,6 +36,8 @@ void check_options(const MeshArguments& arguments) {
     throw UsageError("--improve: meshes of label maps are improved as they are made; leave it out");
   if (!is_label_map && !arguments.labels.empty())
     throw UsageError("--labels goes with a label map (.nii, .nrrd, .mha)");
+  if (arguments.max_volume && (is_label_map || is_tet_mesh_file(arguments.surface)))
+    throw UsageError("--max-volume goes with a surface");
   if (!is_label_map && arguments.tets && !arguments.improve)
     throw UsageError("--tets goes with --improve or a label map");
   if (!is_label_map && arguments.min_angle && !arguments.improve)

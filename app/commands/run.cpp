@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <app/commands/commands.hpp>
+#include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/warning_collector.hpp>
 #if HEML_WINDOW
@@ -26,6 +27,11 @@ int run(const RunArguments& arguments) {
   if (!outcome) return exit_done;
   reason = *outcome;
 #endif
+  if (arguments.record)
+    throw UsageError(
+        fmt::format("--record records what is done in a window, and there is none ({}); 'heml replay SCENE "
+                    "--record FILE' records a scene as its events play it",
+                    reason));
   CaptureArguments instead;
   instead.scene = arguments.scene;
   instead.comparisons = arguments.comparisons;

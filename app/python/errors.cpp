@@ -1,4 +1,5 @@
 #include <app/python/errors.hpp>
+#include <app/python/paths.hpp>
 #include <heml/base/error.hpp>
 
 namespace heml::python {
@@ -38,7 +39,7 @@ void bind_errors(nb::module_& module) {
     try {
       std::rethrow_exception(error);
     } catch (const InputError& wrong) {
-      PyErr_SetString(input_error, wrong.what());
+      PyErr_SetObject(input_error, path_object(wrong.what()).ptr());
     } catch (const UsageError& wrong) {
       PyErr_SetString(input_error, wrong.what());
     }

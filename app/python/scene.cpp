@@ -3,7 +3,9 @@
 
 #include <app/python/bindings.hpp>
 #include <app/python/json_objects.hpp>
+#include <app/python/paths.hpp>
 #include <heml/base/write_file.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/installed_scene.hpp>
 
 namespace heml::python {
@@ -15,21 +17,21 @@ namespace {
 
 constexpr const char* dict_name = "scene";  // of a dict, in messages
 
-std::string path_text(nb::handle path) {
-  return nb::cast<std::string>(nb::module_::import_("os").attr("fsdecode")(path));
-}
-
 nb::object to_dict(const Scene& scene) { return object_from(parse_json(scene_text(scene), scene.file)); }
 
 void save(const Scene& scene, nb::object path) {
   const std::filesystem::path file = path_text(path);
+  std::vector<std::filesystem::path> inputs = input_files(scene);
+  if (std::filesystem::path(scene.file).extension() == ".json") inputs.erase(inputs.begin());  // may be saved again
+  refuse_overwriting(inputs, {file}, "path");
   write_file(file, scene_text(scene, std::filesystem::absolute(file).parent_path()));
 }
 
-nb::tuple pickled_scene(const Scene& scene) { return nb::make_tuple(recording_text(scene), scene.file); }
+nb::tuple pickled_scene(const Scene& scene) { return nb::make_tuple(recording_text(scene), path_object(scene.file)); }
 
 void unpickle_scene(Scene& scene, const nb::tuple& state) {
-  new (&scene) Scene(parse_scene(nb::cast<std::string>(state[0]), nb::cast<std::string>(state[1])));
+  if (nb::len(state) != 2) throw nb::value_error("no state of a heml.Scene");
+  new (&scene) Scene(parse_scene(nb::cast<std::string>(state[0]), path_text(state[1])));
 }
 
 }  // namespace
@@ -54,7 +56,8 @@ void bind_scene(nb::module_& module) {
       .def("save", &save, "path"_a, "Writes a scene file; paths in it are relative to it where they lie below it.",
            nb::sig("def save(self, path: str | os.PathLike) -> None"))
       .def_prop_ro(
-          "file", [](const Scene& scene) { return scene.file; }, "Path it was read from.")
+          "file", [](const Scene& scene) { return path_object(scene.file); }, "Path it was read from.",
+          nb::sig("def file(self) -> str"))
       .def_prop_ro("name", [](const Scene& scene) { return scene.name; })
       .def_prop_ro(
           "tick", [](const Scene& scene) { return scene.solver.tick(); }, "Length of a tick, s.")
@@ -62,7 +65,7 @@ void bind_scene(nb::module_& module) {
           "duration", [](const Scene& scene) { return scene.solver.duration; }, "solver.duration, s.")
       .def("__getstate__", &pickled_scene)
       .def("__setstate__", &unpickle_scene)
-      .def("__repr__", [](const Scene& scene) { return "heml.Scene('" + scene.file + "')"; });
+      .def("__repr__", [](const Scene& scene) { return nb::str("heml.Scene({!r})").format(path_object(scene.file)); });
 }
 
 }  // namespace heml::python

@@ -3,6 +3,7 @@
 #include <nanobind/stl/string.h>
 
 #include <app/python/bindings.hpp>
+#include <app/python/paths.hpp>
 
 namespace heml::python {
 
@@ -12,16 +13,17 @@ namespace {
 
 nb::tuple pickled_snapshot(const Snapshot& snapshot) {
   const Snapshot::Pickled state = snapshot.pickled();
-  return nb::make_tuple(state.build, state.kernel_revision, state.recording, state.file, state.moment.ticks,
-                        state.moment.time, state.moment.next_events, state.moment.hash);
+  return nb::make_tuple(state.build, state.kernel_revision, state.recording, path_object(state.file),
+                        state.moment.ticks, state.moment.time, state.moment.next_events, state.moment.hash);
 }
 
 void unpickle_snapshot(Snapshot& snapshot, const nb::tuple& state) {
+  if (nb::len(state) != 8) throw nb::value_error("no state of a heml.Snapshot of this version");
   Snapshot::Pickled pickled;
   pickled.build = nb::cast<std::string>(state[0]);
   pickled.kernel_revision = nb::cast<long>(state[1]);
   pickled.recording = nb::cast<std::string>(state[2]);
-  pickled.file = nb::cast<std::string>(state[3]);
+  pickled.file = path_text(state[3]);
   pickled.moment = {nb::cast<long>(state[4]), nb::cast<double>(state[5]), nb::cast<long>(state[6]),
                     nb::cast<std::uint64_t>(state[7]), false};
   new (&snapshot) Snapshot(std::move(pickled));

@@ -9,6 +9,7 @@
 #include <app/python/bindings.hpp>
 #include <app/python/errors.hpp>
 #include <app/python/json_objects.hpp>
+#include <app/python/paths.hpp>
 #include <heml/base/error.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/event_json.hpp>
@@ -200,7 +201,7 @@ void record(LiveWorld& live, nb::object path) {
   if (path.is_none())
     live.stop_recording();
   else
-    live.record(nb::cast<std::string>(nb::module_::import_("os").attr("fsdecode")(path)));
+    live.record(path_text(path));
 }
 
 /// Of a closed one it does nothing, as of files. The GIL is held throughout.

@@ -25,7 +25,7 @@ _FUNCTIONS = {"FitResult": "_fit", "fit": "_fit", "sweep": "_sweep"}
 _MODULES = ("gym", "show", "interchange")
 
 __all__ = ["Batch", "FitResult", "InputError", "NotConverged", "Scene", "Snapshot", "Unstable", "World", "__version__", "fit",
-           "gym", "probe", "render", "solve", "sweep"]
+           "probe", "render", "solve", "sweep"]
 
 
 def __getattr__(name):
@@ -33,7 +33,10 @@ def __getattr__(name):
         globals()[name] = getattr(_importlib.import_module(f"heml.{_FUNCTIONS[name]}"), name)
         return globals()[name]
     if name in _MODULES:
-        return _importlib.import_module(f"heml.{name}")
+        try:
+            return _importlib.import_module(f"heml.{name}")
+        except ImportError as missing:  # of an optional package: hasattr() and help() go on
+            raise AttributeError(str(missing)) from missing
     raise AttributeError(f"module 'heml' has no attribute '{name}'")
 
 

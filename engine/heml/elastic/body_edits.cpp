@@ -135,7 +135,7 @@ void ElasticBody<Real>::set_burns(const std::vector<Burn>& burns) {
       if (part.flow) part.flow->scale_rest_shape(s, static_cast<Real>(factor));
     }
   }
-  if (!changes) return;
+  if (!changes) return make_pressure();  // which refers to the layout, written to above
   join_parts();
   std::vector<int> same(before->mesh.tets.size());
   std::iota(same.begin(), same.end(), 0);

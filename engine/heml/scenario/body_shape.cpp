@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <heml/base/error.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/scenario/body_shape.hpp>
@@ -72,6 +73,9 @@ BodyShape shape_of(const TetMesh& mesh) {
   }
   std::sort(shape.nodes.begin(), shape.nodes.end());
   shape.nodes.erase(std::unique(shape.nodes.begin(), shape.nodes.end()), shape.nodes.end());
+  if (shape.nodes.empty())
+    throw InputError(mesh.source, "", "has no surface: its elements overlap",
+                     "remove elements that are given twice or overlap");
   shape.low = shape.high = mesh.nodes[shape.nodes.front()];
   for (const int n : shape.nodes) {
     shape.low = shape.low.cwiseMin(mesh.nodes[n]);

@@ -16,6 +16,7 @@ struct BodyShape {
   Vec3 size() const { return high - low; }
 };
 
+/// Throws InputError where elements overlap so that there is no boundary.
 BodyShape shape_of(const TetMesh& mesh);
 
 /// The unit in which a body of this length has the size of an organ: metres from 1 mm to 2 m; else the first of

@@ -57,8 +57,10 @@ void read_outputs(const JsonCursor& key, Scene& scene) {
   if (const auto times = object.find("times")) {
     times->each([&](const JsonCursor& time) {
       scene.output_times.push_back(time.non_negative());
-      if (time.number() > scene.solver.duration)
-        time.refuse(fmt::format("must be at most solver.duration, {} s", scene.solver.duration));
+      if (scene.solver.is_static() ? time.number() > 1 : time.number() > scene.solver.duration)
+        time.refuse(scene.solver.is_static()
+                        ? "must be at most 1, the whole load"
+                        : fmt::format("must be at most solver.duration, {} s", scene.solver.duration));
     });
   }
   object.read("positions", scene.output_positions);

@@ -54,8 +54,11 @@ void Schedule::watch_stroke(const Event& event, bool met) {
                                  [](const Event& later) { return continues_stroke(later.command).has_value(); });
   if (met_ || (next != events_.end() && *continues_stroke(next->command))) return;
   if (std::holds_alternative<CutTissue>(event.command))
-    warn("{}: events: step {}: the cut parted nothing: its blade passes beside the body as it lies then", file_,
-         event.tick);
+    warn(
+        "{}: events: step {}: the cut parted nothing: its blade passes beside the body as it lies then, or is too "
+        "short to "
+        "part an element",
+        file_, event.tick);
   else
     warn("{}: events: step {}: the electrode burnt nothing: no tissue that it could still burn is within its radius",
          file_, event.tick);

@@ -60,7 +60,7 @@ void ContactPotential::reset() {
   surfaces_.clear();
   pairs_.clear();
   bearing_.clear();
-  seen_pairs_.clear();
+  seen_.clear();
   touches_at_.resize(0);
 }
 
@@ -205,14 +205,14 @@ void ContactPotential::update_duals(const Vector& x) {
   step_taken_ = 0;
 }
 
-/// Whether the pairs in contact are those of the last call. Newton's method has then come near enough for what pairs do
-/// in second order; before, it would meet negative curvature that a solution has not.
+/// Whether the faces and pairs in contact are those of the last call. Newton's method has then come near enough for
+/// what they do in second order; before, it would meet negative curvature that a solution has not.
 bool ContactPotential::is_settled() {
   std::vector<std::array<int, 4>> now;
   for (const ActiveContact& touch : active_)
-    if (touch.point.count == 4) now.push_back(touch.point.nodes);
-  std::swap(now, seen_pairs_);
-  return now == seen_pairs_;
+    if (touch.point.count >= 3) now.push_back(touch.point.nodes);
+  std::swap(now, seen_);
+  return now == seen_;
 }
 
 void ContactPotential::linearise(const Vector& x, bool positive) {
@@ -236,6 +236,7 @@ void ContactPotential::linearise(const Vector& x, bool positive) {
       add_pair_slides(touch.side, touch.point, {at(x, nodes[0]), at(x, nodes[1]), at(x, nodes[2]), at(x, nodes[3])},
                       force, slides_);
   }
+  if (!has_slides) std::erase_if(slides_, [](const RankOneTerm& slide) { return slide.sign < 0; });
   update_duals(x);
   for (const Friction& friction : friction_) {
     const double k = friction_stiffness(friction);

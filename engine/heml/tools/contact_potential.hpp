@@ -48,11 +48,11 @@ class ContactPotentialMemory {
   std::vector<ContactSurface> surfaces_, surfaces_before_;
   bool with_tissue_ = true;
   std::vector<ContactPair> pairs_;  ///< of self-contact, constant during a solve; ascending
-  std::vector<std::array<int, 4>> seen_pairs_;  ///< nodes of those in contact at the last linearise()
-  std::vector<ContactPair> bearing_;            ///< those that bore a load when the last step ended; ascending
+  std::vector<ContactPair> bearing_;  ///< those that bore a load when the last step ended; ascending
   Vector x_before_, touches_at_, x_seen_;
   std::vector<ActiveContact> active_;  ///< at positions touches_at_
   std::vector<Block> blocks_;
+  std::vector<std::array<int, 4>> seen_;  ///< nodes of the faces and pairs in contact at the last linearise()
   std::vector<RankOneTerm> slides_;
   int revisions_ = 0;
   double step_taken_ = 0;  ///< since the last linearise(), of Newton's
@@ -85,9 +85,9 @@ class ContactPotential : private ContactPotentialMemory {
   bool crosses_probe(const Vector& x) const;
   double value(const Vector& x);
   void add_forces(const Vector& x, Vector& f);
-  /// Evaluates the stiffness at x for the calls below. The negative part of a probe's geometric stiffness is left out
-  /// (face_slide.hpp). That of pairs, which is indefinite (pair_slide.hpp), is there where the pairs in contact are
-  /// those of the last call, unless the stiffness shall be `positive`.
+  /// Evaluates the stiffness at x for the calls below. What is indefinite of it, the geometric stiffness of faces at a
+  /// probe (face_slide.hpp) and of pairs (pair_slide.hpp), is there in full where the faces and pairs in contact are
+  /// those of the last call, unless the stiffness shall be `positive`; else the positive part of faces.
   void linearise(const Vector& x, bool positive = false);
   /// Since linearise(), this part of the step that its stiffness suggests was taken.
   void step_taken(double part) { step_taken_ = part; }
@@ -136,7 +136,7 @@ void ContactPotential::each_block(const Visit& visit) const {
     if (slide.count == 3)
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = 0; b <= a; ++b)
-          visit(slide.nodes[a], slide.nodes[b], Mat3(slide.g[a] * slide.g[b].transpose()));
+          visit(slide.nodes[a], slide.nodes[b], Mat3(slide.sign * slide.g[a] * slide.g[b].transpose()));
 }
 
 }  // namespace heml

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <heml/tools/face_slide.hpp>
@@ -73,6 +74,11 @@ void add_face_slides(const ContactSurface& capsule, const ContactPoint& point, c
       return std::sqrt(force * d) * (point.weights[k] / d * direction.along + direction.rate[k] * point.normal);
     };
     out.push_back({3, point.nodes, {of_corner(0), of_corner(1), of_corner(2), Vec3::Zero()}});
+  }
+  const Vec3 first = point.normal.unitOrthogonal();
+  for (const Vec3& along : {first, Vec3(point.normal.cross(first))}) {
+    const auto travel = [&](std::size_t k) -> Vec3 { return std::sqrt(force / d) * point.weights[k] * along; };
+    out.push_back({3, point.nodes, {travel(0), travel(1), travel(2), Vec3::Zero()}, -1});
   }
 }
 

@@ -196,7 +196,7 @@ Status CommandExecutor<Real>::execute(const SetBudget& command) {
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetRate& command) {
-  if (!(command.rate > 0) || !std::isfinite(command.rate)) return "rate: must be more than 0 Hz";
+  if (!(command.rate >= 1 && command.rate <= 1e6)) return "rate: must be 1 to 1e6 Hz";
   if (s_.setup->solver.is_static()) return "rate: a static scene has no ticks of time";
   s_.elapsed_before_rate = s_.elapsed();
   s_.rate_tick = s_.origin_tick = s_.ticks;

@@ -79,9 +79,16 @@ template <class Real>
 bool ImplicitState<Real>::keep_elements(const TetMesh& mesh, const std::vector<int>& elements,
                                         const std::vector<Real>& masses) {
   mass = thrice(free, masses);
+  motions.reset();
   h_before = 0;  // BDF2 starts anew
   body.elements_changed();
   return !equilibrium && linear.keep_elements(mesh, elements);
+}
+
+template <class Real>
+const RigidMotions& ImplicitState<Real>::rigid_motions(const Model<Real>& model) {
+  if (!motions) motions.emplace(model.mesh, model.midedges, mass);
+  return *motions;
 }
 
 template <class Real>

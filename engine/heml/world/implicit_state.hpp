@@ -5,6 +5,7 @@
 #include <heml/dynamics/linear_solver.hpp>
 #include <heml/dynamics/static_solve.hpp>
 #include <heml/world/body_objective.hpp>
+#include <heml/world/rigid_motions.hpp>
 #include <optional>
 
 namespace heml {
@@ -36,6 +37,7 @@ struct ImplicitState {
   double h_before = 0;        ///< s; 0: there was none
   Vector unbalanced;          ///< 3 #V, N, what the last solve of that step left of forces less inertia
   std::optional<StaticSolve> equilibrium;
+  std::optional<RigidMotions> motions;  ///< of the parts as they are; see rigid_motions()
 
   /// modulus: #T, Pa. All references must outlive this.
   ImplicitState(ElasticBody<Real>& elastic, const Shared<Model<Real>>& model, const Shared<NodeMasses<Real>>& masses,
@@ -44,6 +46,8 @@ struct ImplicitState {
   /// Elements have gone: these are left, by the numbers they had; model (with this mesh) and masses have followed.
   /// Returns false where parts have to be made anew.
   bool keep_elements(const TetMesh& mesh, const std::vector<int>& elements, const std::vector<Real>& masses);
+  /// How free parts of this body move as a whole; made when first asked for.
+  const RigidMotions& rigid_motions(const Model<Real>& model);
   ImplicitSnapshot<Real> snapshot() const;
   /// Of parts made anew, of the body that it was: they go on as those would have.
   void restore(const ImplicitSnapshot<Real>& snapshot);

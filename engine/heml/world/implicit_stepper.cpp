@@ -5,6 +5,7 @@
 #include <cmath>
 #include <heml/dynamics/integrator_list.hpp>
 #include <heml/dynamics/lbfgs.hpp>
+#include <heml/world/energy_limit.hpp>
 #include <heml/world/failure.hpp>
 #include <heml/world/implicit_stepper.hpp>
 #include <heml/world/stage_start.hpp>
@@ -17,7 +18,6 @@ constexpr double min_share = 1.0 / 64;       // of a tick: shorter steps are not
 constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what a step may leave unbalanced
 constexpr double earth = 9.81;               // m/s²
 constexpr int max_probe_substeps = 64;       // of a probe in a step
-constexpr double slack_of_energy = 1e-10;    // of a step's energy: what it may gain
 constexpr double round_off_fraction = 1e-2;  // of the bound on the round-off of energies: what sums of elements reach
 constexpr double resolved = 4;               // (ω h)² of motions that a step of h can follow
 constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
@@ -25,7 +25,7 @@ constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of 
 // Of an iteration, a tetrahedron, one core: the stiffness, a dozen products and back-solves, two forces and values. For
 // budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
 constexpr double seconds_an_iteration = 0.7e-6;
-constexpr int max_iterations = 60, max_halvings = 40;
+constexpr int max_iterations = 60;
 constexpr double rough_limit = 1e-3;         // of a stage's residual, while contact still changes with each solve
 constexpr long max_failed_iterations = 120;  // in contact: of a tick's attempts that fail, of a stage's solves
 }  // namespace
@@ -143,7 +143,7 @@ bool ImplicitStepper<Real>::is_noisy(double h, double time_after) {
   Vector f;
   if (!here || !parts.body.residual(x, f)) return false;
   const double round_off = round_off_fraction * parts.body.value_round_off();
-  return !there || *there - *here + h * f.dot(v) > resolved * kinetic(v) + round_off;
+  return !there || *there - *here + h * f.dot(v) > resolved * kinetic_energy(parts, v) + round_off;
 }
 
 /// A step that does not converge with plastic flow in it, with flow after it: the stress it ends at is of the flow
@@ -172,14 +172,17 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
   });
   Vector &x = step.x, &v = step.v;
   if (done && s_.method != Integrator::backward_euler && !takes_any_iterate()) {
-    const bool paid = take_back_gain(time_after, x, v), is_damped = method == Integrator::backward_euler;
+    const bool paid = take_back_gain(s_, time_after, x, v), is_damped = method == Integrator::backward_euler;
     done = is_damped || (paid && !(s_.setup->solver.step && parts.body.inverts_elements(parts.x, x)));
   }
   if (!done) {
     if (s_.has_internal_state) s_.body.begin_step(0);
     return false;
   }
-  if (takes_any_iterate()) limit_energy(h, time_after, x, v);
+  if (takes_any_iterate() && limit_energy(s_, h, time_after, takes_best_, x, v)) {
+    parts.step.residual(x, residual_);  // forces are taken from what the objective saw last
+    s_.stats.residual = parts.body.relative_residual(residual_);
+  }
   parts.body.end_step(x);
   parts.x_before = parts.x;
   parts.v_before = parts.v;
@@ -296,61 +299,6 @@ int ImplicitStepper<Real>::stage_iterations() const {
   const double stages = info_of(s_.method).stages;
   const double cost = seconds_an_iteration * static_cast<double>(s_.model->mesh.tets.size());
   return static_cast<int>(std::clamp<double>(budget.milliseconds / 1000 / (stages * cost), 1, max_iterations));
-}
-
-template <class Real>
-double ImplicitStepper<Real>::kinetic(const Vector& v) const {
-  return (s_.implicit->mass.array() * v.array().square()).sum() / 2;
-}
-
-/// Methods of second order gain energy where a step is long for what it passes: at x, v that is taken from the
-/// velocity, which is an error of third order in the step, as the method's own. Returns false where the velocity has
-/// less. Known where nothing but loads with a potential does work.
-template <class Real>
-bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector& v) {
-  ImplicitState<Real>& parts = s_.implicit_state();
-  if (parts.free.node.empty() || s_.has_internal_state || !s_.grasps.empty() || !s_.contacts.empty() ||
-      supports_move(*s_.model, s_.state.time, time))
-    return true;
-  const auto after = parts.body.value(x), before = parts.body.value(parts.x);
-  if (!after || !before) return true;
-  const double moved = kinetic(parts.v), moves = kinetic(v), may = *before + moved - *after;
-  // What round-off makes of energies is no gain: taken from every step of a long motion it would add up.
-  const double round_off =
-      round_off_fraction * parts.body.value_round_off() + std::numeric_limits<Real>::epsilon() * moved;
-  if (moves == 0 || !(moves > may + slack_of_energy * (moved + std::abs(*before)) + round_off)) return true;
-  v *= std::sqrt(std::max(may, 0.0) / moves);
-  return may >= 0 || moves - may <= round_off;
-}
-
-/// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
-/// give, else by going back towards the start. Held nodes that move do work of their own, and pressure that follows the
-/// surface has no potential: nothing is known there, and nothing done under a budget. The best iterate of a step that
-/// did not converge is limited there too: to the energy with supports moved and all else as at the start; under
-/// pressure, to the kinetic energy of the start.
-template <class Real>
-void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vector& v) {
-  ImplicitState<Real>& parts = s_.implicit_state();
-  Vector start = parts.x;
-  if (supports_move(*s_.model, s_.state.time, time)) {
-    if (!takes_best_) return;
-    place_supports(*s_.model, time, start);
-  }
-  const auto at_start = parts.body.value(start);  // with the loads of the end: what they do on the way is in it
-  if (!at_start && !takes_best_) return;
-  const double may = at_start.value_or(0) + kinetic(parts.v);
-  double has = parts.body.value(x).value_or(0);
-  // Going back does not help where round-off alone is in the way, as in a body at rest.
-  const double round_off = round_off_fraction * parts.body.value_round_off();
-  for (int k = 0; has > may + round_off && k <= max_halvings; ++k) {
-    x = k < max_halvings ? Vector(start + (x - start) / 2) : start;
-    v = (x - parts.x) / h;
-    has = *parts.body.value(x);
-  }
-  const double moving = kinetic(v), left = std::max(may - has, 0.0);
-  if (moving > left) v = (parts.mass.array() > 0).select(std::sqrt(left / moving) * v, v);
-  parts.step.residual(x, residual_);  // forces are taken from what the objective saw last
-  s_.stats.residual = parts.body.relative_residual(residual_);
 }
 
 template <class Real>

@@ -36,15 +36,12 @@ class ImplicitStepper {
   bool lagging_step(double h, double time_after);
   bool damped_step(double h, double time_after);
   bool is_noisy(double h, double time_after);
-  bool take_back_gain(double time, const Vector& x, Vector& v);
-  double kinetic(const Vector& v) const;
   bool takes_any_iterate() const { return s_.setup->solver.budget || takes_best_; }
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
   NewtonResult minimise_stage(double least_limit, Vector& x);
   int probe_substeps(double h) const;
   StoppingCriterion stage_criterion();
   bool is_balanced_enough(const Stage& stage, const Vector& r);
-  void limit_energy(double h, double time, Vector& x, Vector& v);
   std::string why_unbalanced() const;
 
   Simulation<Real>& s_;

@@ -12,6 +12,26 @@ Vector flight(const Simulation<Real>& s, const Stage& stage, double time, const 
   return result;
 }
 
+/// Where velocities and gravity alone take free nodes.
+template <class Real>
+Vector fall(const Simulation<Real>& s, const Stage& stage, double time, const Vector& x) {
+  Vector result = flight(s, stage, time, x);
+  const Vec3 by_gravity = s.gravity() / stage.a(s.setup->solver.damping);
+  for (Eigen::Index i = 0; i < result.size(); ++i)
+    if (s.implicit->mass[i] > 0) result[i] += by_gravity[i % 3];
+  return result;
+}
+
+/// `stay` with its free parts moved as a whole to where they would fall, or along what they would meet there.
+template <class Real>
+Vector moved_start(const Simulation<Real>& s, const Vector& stay, const Vector& there) {
+  const RigidMotions& motions = s.implicit->rigid_motions(*s.model);
+  if (s.contacts.empty()) return motions.moved(stay, there);
+  Vector contact = Vector::Zero(there.size());
+  s.implicit->body.add_contact(there, contact);
+  return motions.slid(stay, there, contact);
+}
+
 }  // namespace
 
 template <class Real>
@@ -30,6 +50,11 @@ Vector stage_start(Simulation<Real>& s, const Stage& stage, double time, const V
     return parts.step.residual(at, r_there) && r_there.allFinite();
   };
   const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
+  if (staying && flying && s.setup->solver.budget && !parts.rigid_motions(*s.model).empty()) {
+    const Vector moved = moved_start(s, stay, fall(s, stage, time, x));
+    const auto moving = parts.step.value(moved);
+    if (moving && *moving < *staying && *moving < *flying && is_defined(moved, r)) return moved;
+  }
   if (staying && flying) {
     const bool flies = *flying < *staying;
     const Vector &lower = flies ? fly : stay, &higher = flies ? stay : fly;
@@ -51,11 +76,7 @@ Vector stage_start(Simulation<Real>& s, const Stage& stage, double time, const V
 template <class Real>
 void expect_contact(Simulation<Real>& s, const Stage& stage, double time, const Vector& x) {
   if (!s.contacts.tissue) return;
-  Vector fall = flight(s, stage, time, x);
-  const Vec3 by_gravity = s.gravity() / stage.a(s.setup->solver.damping);
-  for (Eigen::Index i = 0; i < fall.size(); ++i)
-    if (s.implicit->mass[i] > 0) fall[i] += by_gravity[i % 3];
-  s.implicit->body.expect_contact(fall);
+  s.implicit->body.expect_contact(fall(s, stage, time, x));
 }
 
 template void place_supports(const Model<float>&, double, Vector&);

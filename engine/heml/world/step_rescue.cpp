@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/world/energy_limit.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/step_rescue.hpp>
 #include <utility>
@@ -88,15 +89,18 @@ bool StepRescue<Real>::take_explicit_substeps(double until) {
   return reached;
 }
 
-/// Takes from the velocities what energy exceeds that before. Returns false where they do not have as much.
+/// Takes from the velocities what energy exceeds that before, those within parts first. Returns false where they do not
+/// have as much.
 template <class Real>
 bool StepRescue<Real>::limit_gain(double before, double until) {
-  const double gain = *energy(until) - before, kinetic = s_.energies().kinetic;
+  const double gain = *energy(until) - before;
   if (gain <= 0) return true;
-  if (!(gain <= kinetic)) return false;
-  const Real kept = static_cast<Real>(std::sqrt(1 - gain / kinetic));
+  Vector v = as_vector(s_.state.v);
+  const double moving = kinetic_energy(*s_.implicit, v);
+  if (!(gain <= moving)) return false;
+  slow_down(s_, moving - gain, as_vector(s_.state.x), v);
   for (std::size_t i = 0; i < s_.state.v.size(); ++i)
-    if (s_.masses->inverse_per_dof[i] > 0) s_.state.v[i] *= kept;
+    s_.state.v[i] = static_cast<Real>(v[static_cast<Eigen::Index>(i)]);
   return true;
 }
 

@@ -169,14 +169,14 @@ std::vector<int> ToolCommands<Real>::surface_with(int node, const std::vector<in
   return nodes;
 }
 
-/// The numbers inside of nodes, ascending, each once.
+/// The numbers inside of nodes and of mid-edge nodes between them, ascending, each once.
 template <class Real>
-static Status inner_nodes(const char* tool, const std::vector<int>& nodes, const Simulation<Real>& s,
+static Status inner_nodes(const char* tool, std::vector<int> nodes, const Simulation<Real>& s,
                           std::vector<int>& inner) {
-  for (const int node : nodes) {
+  for (const int node : nodes)
     if (const Status status = patch_problem(tool, node, 0, s.node_count()); !status.ok()) return status;
-    inner.push_back(s.model->order.new_node[static_cast<std::size_t>(node)]);
-  }
+  add_midedges_between(s.setup->mesh, s.setup->midedges, nodes);
+  for (const int node : nodes) inner.push_back(s.model->order.new_node[static_cast<std::size_t>(node)]);
   std::sort(inner.begin(), inner.end());
   inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
   return {};

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/world/energy_limit.hpp>
+#include <heml/world/stage_start.hpp>
+#include <limits>
+
+namespace heml {
+namespace {
+
+constexpr double slack_of_energy = 1e-10;    // of a step's energy: what it may gain
+constexpr double round_off_fraction = 1e-2;  // of the bound on the round-off of energies: what sums of elements reach
+constexpr int max_halvings = 42;             // of the way: a third of them towards each of the places below
+
+/// Whether nothing but gravity and held nodes acts from outside: then the motion of free parts as a whole is no matter
+/// of a step's energy.
+template <class Real>
+bool flies_alone(const Simulation<Real>& s) {
+  return s.model->dead.empty() && s.model->pressures.empty() && s.grasps.empty() && s.contacts.empty();
+}
+
+}  // namespace
+
+template <class Real>
+double kinetic_energy(const ImplicitState<Real>& parts, const Vector& v) {
+  return (parts.mass.array() * v.array().square()).sum() / 2;
+}
+
+template <class Real>
+void slow_down(const Simulation<Real>& s, double left, const Vector& x, Vector& v) {
+  const ImplicitState<Real>& parts = *s.implicit;
+  const Vector rigid = s.implicit->rigid_motions(*s.model).velocity(x, v), inner = v - rigid;
+  const double whole = kinetic_energy(parts, rigid), within = kinetic_energy(parts, inner);
+  const double of_whole = left < whole ? std::sqrt(left / whole) : 1;
+  const double of_inner = left > whole && within > 0 ? std::sqrt((left - whole) / within) : 0;
+  v = (parts.mass.array() > 0).select(of_whole * rigid + of_inner * inner, v);
+}
+
+template <class Real>
+bool take_back_gain(Simulation<Real>& s, double time, const Vector& x, Vector& v) {
+  ImplicitState<Real>& parts = s.implicit_state();
+  if (parts.free.node.empty() || s.has_internal_state || !s.grasps.empty() || !s.contacts.empty() ||
+      supports_move(*s.model, s.state.time, time))
+    return true;
+  const auto after = parts.body.value(x), before = parts.body.value(parts.x);
+  if (!after || !before) return true;
+  const double moved = kinetic_energy(parts, parts.v), moves = kinetic_energy(parts, v);
+  const double may = *before + moved - *after;
+  // What round-off makes of energies is no gain: taken from every step of a long motion it would add up.
+  const double round_off =
+      round_off_fraction * parts.body.value_round_off() + std::numeric_limits<Real>::epsilon() * moved;
+  if (moves == 0 || !(moves > may + slack_of_energy * (moved + std::abs(*before)) + round_off)) return true;
+  if (!flies_alone(s)) {
+    v *= std::sqrt(std::max(may, 0.0) / moves);
+    return may >= 0 || moves - may <= round_off;
+  }
+  const RigidMotions& motions = parts.rigid_motions(*s.model);
+  const Vector rigid = motions.velocity(x, v), inner = v - rigid;
+  const double moves_within = kinetic_energy(parts, inner);
+  const double moved_within = moved - kinetic_energy(parts, motions.velocity(parts.x, parts.v));
+  const double may_within = *before - *after - motions.weight_work(s.gravity(), parts.x, x) + moved_within;
+  if (!(moves_within > may_within)) return true;  // a gain of the motion as a whole alone: the method's own error
+  v = rigid + std::sqrt(std::max(may_within, 0.0) / moves_within) * inner;
+  return may_within >= 0 || moves_within - may_within <= round_off;
+}
+
+template <class Real>
+bool limit_energy(Simulation<Real>& s, double h, double time, bool always, Vector& x, Vector& v) {
+  ImplicitState<Real>& parts = s.implicit_state();
+  Vector start = parts.x;
+  if (supports_move(*s.model, s.state.time, time)) {
+    if (!always) return false;
+    place_supports(*s.model, time, start);
+  }
+  const auto at_start = parts.body.value(start);  // with the loads of the end: what they do on the way is in it
+  if (!at_start && !always) return false;
+  const RigidMotions& motions = parts.rigid_motions(*s.model);
+  const bool alone = at_start && flies_alone(s) && !motions.empty();
+  const double may = at_start.value_or(0) + kinetic_energy(parts, parts.v) -
+                     (alone ? kinetic_energy(parts, motions.velocity(parts.x, parts.v)) : 0);
+  const auto energy_at = [&](const Vector& there) {
+    const double value = parts.body.value(there).value_or(0);
+    return alone ? value + motions.weight_work(s.gravity(), start, there) : value;
+  };
+  double has = energy_at(x);
+  // Going back does not help where round-off alone is in the way, as in a body at rest.
+  const double round_off = round_off_fraction * parts.body.value_round_off();
+  Vector places[] = {start, start, start};  // the start moved as a whole to x; slid to x along what it touches there
+  if (has > may + round_off && !motions.empty()) {
+    Vector contact = Vector::Zero(x.size());
+    if (!s.contacts.empty()) parts.body.add_contact(x, contact);
+    places[0] = motions.moved(start, x);
+    places[1] = motions.slid(start, x, contact);
+  }
+  for (int k = 0; has > may + round_off && k <= max_halvings; ++k) {
+    const Vector& back = places[std::min(3 * k / max_halvings, 2)];
+    x = k < max_halvings ? Vector(back + (x - back) / 2) : start;
+    v = (x - parts.x) / h;
+    has = energy_at(x);
+  }
+  const double left = std::max(may - has, 0.0) + (alone ? kinetic_energy(parts, motions.velocity(x, v)) : 0);
+  if (kinetic_energy(parts, v) > left) slow_down(s, left, x, v);
+  return true;
+}
+
+template double kinetic_energy(const ImplicitState<float>&, const Vector&);
+template double kinetic_energy(const ImplicitState<double>&, const Vector&);
+template void slow_down(const Simulation<float>&, double, const Vector&, Vector&);
+template void slow_down(const Simulation<double>&, double, const Vector&, Vector&);
+template bool take_back_gain(Simulation<float>&, double, const Vector&, Vector&);
+template bool take_back_gain(Simulation<double>&, double, const Vector&, Vector&);
+template bool limit_energy(Simulation<float>&, double, double, bool, Vector&, Vector&);
+template bool limit_energy(Simulation<double>&, double, double, bool, Vector&, Vector&);
+
+}  // namespace heml

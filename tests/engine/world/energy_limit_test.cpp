@@ -1,0 +1,90 @@
+// What a step has gained in energy is taken from motion within bodies: not from that of bodies as a whole.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "world_support.hpp"
+
+namespace heml::energy_limit_test {
+
+using namespace heml::test;
+
+namespace {
+
+/// A box stretched by half that is let go, with a velocity.
+WorldSetup stretched(const char* law, Integrator integrator) {
+  WorldSetup setup;
+  setup.mesh = make_box(Vec3(0.1, 0.06, 0.04), {3, 2, 2});
+  setup.materials = {{std::nullopt, soft(law, 1e4, 0.4)}};
+  setup.solver.integrator = integrator;
+  setup.solver.threads = 1;
+  setup.initial_velocity = Vec3(1, 0, 0);
+  for (const Vec3& X : setup.mesh.nodes) setup.initial_positions.push_back(Vec3(1.5 * X.x(), 0.8 * X.y(), 0.8 * X.z()));
+  return setup;
+}
+
+/// Σ m v / Σ m, m/s.
+Vec3 mean_velocity(const World& world) {
+  const WorldSetup& setup = world.setup();
+  const auto v = world.velocities();
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (const Tet& tet : setup.mesh.tets) {
+    const auto X = [&](std::size_t c) { return setup.mesh.nodes[static_cast<std::size_t>(tet[c])]; };
+    const double m = signed_volume(X(0), X(1), X(2), X(3)) / 4;
+    for (const int n : tet) sum += m * v[static_cast<std::size_t>(n)];
+    mass += 4 * m;
+  }
+  return sum / mass;
+}
+
+}  // namespace
+
+TEST_CASE("long steps of a stretched body that is let go keep its momentum, of every implicit method") {
+  for (const auto integrator : moving_integrators()) {
+    if (is_explicit(integrator)) continue;
+    for (const char* law : {"neo_hookean", "stvk"}) {
+      CAPTURE(std::string(integrator_name(integrator)));
+      CAPTURE(law);
+      WorldSetup setup = stretched(law, integrator);
+      setup.solver.step = 0.05;
+      auto world = make_world(setup);
+      for (int k = 0; k < 20 && !world->halt(); ++k) world->tick();
+      REQUIRE_FALSE(world->halt());
+      CHECK((mean_velocity(*world) - Vec3(1, 0, 0)).norm() < 1e-3);
+    }
+  }
+}
+
+TEST_CASE("a body in free fall keeps its momentum under a budget of one iteration of backward Euler") {
+  WorldSetup setup = stretched("neo_hookean", Integrator::backward_euler);
+  setup.solver.rate = 60;
+  setup.gravity = Vec3(0, -9.81, 0);
+  setup.solver.budget = Budget{};
+  setup.solver.budget->iterations = 1;
+  auto world = make_world(setup);
+  for (int k = 0; k < 60; ++k) world->tick();
+  REQUIRE_FALSE(world->halt());
+  CHECK((mean_velocity(*world) - Vec3(1, -9.81, 0)).norm() < 1e-3);
+}
+
+TEST_CASE("a body that falls on a table without friction slides on under a budget of one iteration") {
+  WorldSetup setup;
+  setup.mesh = make_box(Vec3::Constant(0.06), {3, 3, 3});
+  setup.materials = {{std::nullopt, soft("neo_hookean", 1e4, 0.45)}};
+  setup.solver.integrator = Integrator::backward_euler;
+  setup.solver.rate = 60;
+  setup.solver.threads = 1;
+  setup.solver.budget = Budget{};
+  setup.solver.budget->iterations = 1;
+  setup.tables = {{Vec3(0, -0.05, 0), Vec3::UnitY(), 0}};
+  setup.gravity = Vec3(0, -9.81, 0);
+  setup.initial_velocity = Vec3(0.5, 0, 0);
+  auto world = make_world(setup);
+  for (int k = 0; k < 60; ++k) world->tick();
+  REQUIRE_FALSE(world->halt());
+  CHECK(mean_velocity(*world).x() == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(std::abs(mean_velocity(*world).y()) < 0.05);
+}
+
+}  // namespace heml::energy_limit_test
