@@ -30,12 +30,24 @@ double value_at_point(const render::SurfacePoint& point, const Frame& frame) {
   return value;
 }
 
+/// Whether the tissue of a point is on the surface. rest: m, of the point at rest, found when it is asked for first:
+/// nodes of a wound whose cut was undone, and their numbers, may come back elsewhere.
+bool is_where_it_was(const render::SurfacePoint& point, const SurfaceMesh& surface_mesh, std::optional<Vec3f>& rest) {
+  if (!render::is_on(point, surface_mesh)) return false;
+  std::array<Vec3f, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k)
+    corners[k] = surface_mesh.rest[*render::surface_index(point.nodes[k], surface_mesh)];
+  const Vec3f now = point.among(corners);
+  if (!rest) rest = now;
+  return (now - *rest).norm() <= 1e-5f * (corners[1] - corners[0]).norm() + 1e-6f * now.norm();
+}
+
 std::string cell(double number) { return std::isfinite(number) ? fmt::format("{:.9g}", number) : ""; }
 
 }  // namespace
 
 void Measure::add(const render::SurfacePoint& point) {
-  if (points_.size() == max_points) points_.clear();
+  if (points_.size() == max_points) clear();
   points_.push_back(point);
   kept_.clear();
   kept_tick_ = -1;
@@ -43,6 +55,7 @@ void Measure::add(const render::SurfacePoint& point) {
 
 void Measure::clear() {
   points_.clear();
+  rests_.clear();
   kept_.clear();
   kept_tick_ = -1;
   now_ = {};
@@ -53,11 +66,13 @@ void Measure::update(const Frame& frame) {
   now_ = {};
   now_.time = frame.time;
   now_.field = frame.field;
-  for (const render::SurfacePoint& point : points_) {
-    const auto corners = render::corners_of(point, frame, *frame.surface_mesh);
-    now_.places.push_back(corners ? point.among(*corners) : Vec3f::Constant(std::nanf("")));
+  rests_.resize(points_.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const bool is_there = is_where_it_was(points_[k], *frame.surface_mesh, rests_[k]);
+    const auto corners = is_there ? render::corners_of(points_[k], frame, *frame.surface_mesh) : std::nullopt;
+    now_.places.push_back(corners ? points_[k].among(*corners) : Vec3f::Constant(std::nanf("")));
   }
-  now_.value = value_at_point(points_.back(), frame);
+  if (now_.places.back().allFinite()) now_.value = value_at_point(points_.back(), frame);
   if (points_.size() > 1) now_.distance = length_between(now_.places[0], now_.places[1]);
   if (points_.size() > 2) {
     now_.second = length_between(now_.places[1], now_.places[2]);

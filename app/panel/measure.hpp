@@ -46,6 +46,7 @@ class Measure {
   void keep(long tick);
 
   std::vector<render::SurfacePoint> points_;
+  std::vector<std::optional<Vec3f>> rests_;  ///< m, of points at rest, once they were seen
   Measured now_;
   std::vector<Measured> kept_;
   long kept_tick_ = -1;

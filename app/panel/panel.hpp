@@ -97,6 +97,7 @@ class Panel {
   bool wants_stretches() const { return stretch_monitor_.active(); }  ///< whether frames should carry Frame::stretches
   bool wants_errors() const { return errors_open_; }                  ///< whether frames should carry errors
   const ToolSettings& tool() const { return tool_.tool(); }
+  void set_tool(const ToolSettings& tool) { tool_.set_tool(tool); }
   Insets insets(ImVec2 picture) const;  ///< that draw() covers of an image of a size, pixels
   /// Whether a point (pixels) is on the panel as last drawn.
   bool covers(float x, float y) const;

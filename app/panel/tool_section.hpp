@@ -23,6 +23,7 @@ class ToolSection {
   void sync(const SetGravity& command);
 
   const ToolSettings& tool() const { return tool_; }
+  void set_tool(const ToolSettings& tool) { tool_ = tool; }
   /// Tells of them from now on.
   void set_devices(std::vector<DeviceInfo> devices) { devices_ = std::move(devices); }
   const std::vector<DeviceInfo>& devices() const { return devices_; }

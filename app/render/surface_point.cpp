@@ -28,6 +28,19 @@ std::optional<std::size_t> surface_index(int node, const SurfaceMesh& surface_me
   return static_cast<std::size_t>(at - surface_mesh.nodes.begin());
 }
 
+bool is_on(const SurfacePoint& point, const SurfaceMesh& surface_mesh) {
+  std::array<int, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto index = surface_index(point.nodes[k], surface_mesh);
+    if (!index) return false;
+    corners[k] = static_cast<int>(*index);
+  }
+  return std::any_of(surface_mesh.triangles.begin(), surface_mesh.triangles.end(), [&](const auto& triangle) {
+    const auto has = [&](int corner) { return std::find(triangle.begin(), triangle.end(), corner) != triangle.end(); };
+    return std::all_of(corners.begin(), corners.end(), has);
+  });
+}
+
 std::optional<std::array<Vec3f, 3>> corners_of(const SurfacePoint& point, const Frame& frame,
                                                const SurfaceMesh& surface_mesh) {
   std::array<Vec3f, 3> corners;

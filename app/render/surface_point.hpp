@@ -21,6 +21,9 @@ SurfacePoint surface_point(const Hit& hit, const Frame& frame, const SurfaceMesh
 /// Index into SurfaceMesh::nodes of a node by its mesh-file number; none: it is not on the surface.
 std::optional<std::size_t> surface_index(int node, const SurfaceMesh& surface_mesh);
 
+/// Whether the triangle of a point is still one of the surface: a cut may have parted its corners.
+bool is_on(const SurfacePoint& point, const SurfaceMesh& surface_mesh);
+
 /// Positions (m) of the corners in a frame; none: a corner is no longer on the surface.
 std::optional<std::array<Vec3f, 3>> corners_of(const SurfacePoint& point, const Frame& frame,
                                                const SurfaceMesh& surface_mesh);

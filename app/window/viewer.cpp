@@ -44,10 +44,12 @@ void Viewer::adopt(OpenScene opened) {
   selection_drag_.cancel();
   arrow_drag_.cancel();
   const panel::Measure measure = open_.resumed && panel_ ? panel_->measure() : panel::Measure();
+  const auto tool = open_.resumed && panel_ ? std::optional(panel_->tool()) : std::nullopt;
   panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names(),
                  open_.session->regions());
   panel_->measure() = measure;
   panel_->set_preferences(preferences_);
+  if (tool) panel_->set_tool(*tool);
   panel_->set_findings(open_.findings);
   show_mesh();
   next_event_ = 0;
@@ -280,9 +282,32 @@ void Viewer::take_opened() {
   if (runs) open_.session->play();
 }
 
+/// Ends what is being replayed. Work of last time stays in its file, and is offered again.
+void Viewer::cancel_replay() {
+  session_loader_.cancel();
+  if (std::exchange(restores_, false))
+    panel_->notify("Not restored: what was done last time is offered at the next start.");
+}
+
+/// What is done to a body that is about to be replaced would be lost.
+bool Viewer::is_being_replaced() const {
+  return session_loader_.is_busy() && (restores_ || !session_loader_.progress());
+}
+
 void Viewer::post(std::vector<Command>& commands) {
+  const auto lets_go = [](const Command& command) { return std::holds_alternative<Release>(command); };
+  if (is_being_replaced() && !std::all_of(commands.begin(), commands.end(), lets_go)) {
+    panel_->notify(restores_ ? "What was done last time is being restored. Esc ends that."
+                             : "Another file is being opened.");
+    return commands.clear();
+  }
+  const auto does_nothing = [&](const Command& command) {
+    const auto* step = std::get_if<StepHistory>(&command);
+    if (!step) return false;
+    return !live_->undo_list || (step->by < 0 ? live_->undo_list->past : live_->undo_list->future).empty();
+  };
   for (Command& command : commands) {
-    if (!open_.recording) unsaved_.done(command);
+    if (!open_.recording && !does_nothing(command)) unsaved_.done(command);
     open_.session->post(std::move(command));
   }
   commands.clear();

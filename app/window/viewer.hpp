@@ -92,6 +92,8 @@ class Viewer final : public WindowEvents {
   void carry_out(const panel::PanelActions& actions);
   void carry_out(panel::Request request);
   void post(std::vector<Command>& commands);
+  void cancel_replay();
+  bool is_being_replaced() const;
   void ask_about_work(const std::string& title, std::function<void()> then);
   void offer_left_work();
   void answer(std::size_t which);

@@ -28,6 +28,21 @@ class CommandLine(ProgramCase):
         self.assertEqual(rows[0], ["node", "x", "y", "z"])
         return [tuple(map(float, row[1:])) for row in rows[1:]]
 
+    def test_what_a_command_cannot_do_is_refused_not_left_out(self):
+        scene = self.write("scene.json", cantilever())
+        done = heml("run", scene, "--record", self.folder / "r.jsonl", cwd=self.folder)  # without a display
+        self.assert_refused(done, 2, "--record", "heml replay SCENE --record FILE")
+        self.assertEqual(heml("export", scene, "--out", self.folder / "vtu").returncode, 0)
+        mesh = sorted((self.folder / "vtu").glob("*.vtu"))[0]
+        done = heml("mesh", mesh, "--out", self.folder / "o.msh", "--max-volume", "1e-9")
+        self.assert_refused(done, 2, "--max-volume", "surface")
+
+    def test_a_mesh_that_is_all_given_twice_is_refused(self):
+        self.write("twice.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                                      "Tetrahedra\n2\n1 2 3 4 0\n1 2 3 4 0\nEnd\n")
+        for command in (["explain", "twice.mesh"], ["solve", "twice.mesh", "--out", "o"]):
+            self.assert_refused(heml(*command, cwd=self.folder), 3, "twice.mesh", "no surface", "given twice")
+
     def test_a_cut_beside_the_body_is_warned_of_and_a_refused_event_leaves_what_was_reached(self):
         def blade(x):
             return {"cut": {"sweep": [[[x, -1, -1], [x, -1, 1]], [[x, 1, -1], [x, 1, 1]]]}}

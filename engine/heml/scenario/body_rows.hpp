@@ -121,7 +121,7 @@ struct Row<SetRate> : CommonRow {
                                     meaning =
                                         "sets the ticks of a simulated second; `at` of later events counts by the "
                                         "scene's own rate all the same";
-  static constexpr ValueForm value_form = form::positive;
+  static constexpr ValueForm value_form = form::between(1, 1e6);
   static Command read(const JsonCursor& value, Points&) { return SetRate{value_of<double>(value, value_form)}; }
   static Json write(const SetRate& set) { return set.rate; }
 };

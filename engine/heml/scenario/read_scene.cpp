@@ -59,7 +59,7 @@ void read_outputs(const JsonCursor& key, Scene& scene) {
       scene.output_times.push_back(time.non_negative());
       if (scene.solver.is_static() ? time.number() > 1 : time.number() > scene.solver.duration)
         time.refuse(scene.solver.is_static()
-                        ? "must be at most 1, the whole load"
+                        ? "in a static scene times are fractions of the load, at most 1"
                         : fmt::format("must be at most solver.duration, {} s", scene.solver.duration));
     });
   }

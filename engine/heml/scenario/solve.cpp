@@ -31,12 +31,7 @@ struct Landing {
 std::vector<Landing> landings_of(const Scene& scene) {
   const bool is_static = scene.solver.is_static();
   std::vector<Landing> landings;
-  for (const double time : scene.output_times) {
-    if (is_static && !(time >= 0 && time <= 1))
-      throw InputError(scene.file, fmt::format("outputs.times[{}]", landings.size()), fmt::format("is {}", time),
-                       "in a static scene times are fractions of the load, 0 to 1");
-    landings.push_back({time, fmt::format("positions_{}", landings.size())});
-  }
+  for (const double time : scene.output_times) landings.push_back({time, fmt::format("positions_{}", landings.size())});
   std::stable_sort(landings.begin(), landings.end(),
                    [](const Landing& a, const Landing& b) { return a.time < b.time; });
   landings.push_back({is_static ? 1 : scene.solver.duration, "positions"});

@@ -63,6 +63,29 @@ TEST_CASE("points follow the tissue between its nodes, and a point that is cut a
   CHECK(std::isnan(measure.now().distance));
 }
 
+TEST_CASE("a point whose triangle a cut has parted is not known, nor one whose nodes come back elsewhere") {
+  panel::Measure measure;
+  Frame frame = small_frame();
+  measure.add({{10, 11, 12}, {0.5f, 0.25f, 0.25f}});
+  measure.add(at_node(13));
+  measure.update(frame);
+  const double before = measure.now().distance;
+  CHECK(std::isfinite(before));
+  SurfaceMesh parted = small_surface();
+  std::erase_if(parted.triangles, [](const auto& t) { return std::count(t.begin(), t.end(), 3) == 0; });
+  frame.surface_mesh = std::make_shared<const SurfaceMesh>(parted);
+  measure.update(frame);
+  CHECK(std::isnan(measure.now().distance));
+  SurfaceMesh elsewhere = small_surface();
+  for (Vec3f& X : elsewhere.rest) X += Vec3f(0.01f, 0, 0);
+  frame.surface_mesh = std::make_shared<const SurfaceMesh>(elsewhere);
+  measure.update(frame);
+  CHECK(std::isnan(measure.now().distance));
+  frame.surface_mesh = std::make_shared<const SurfaceMesh>(small_surface());
+  measure.update(frame);
+  CHECK(measure.now().distance == before);
+}
+
 TEST_CASE("the value of the field is interpolated at the last point") {
   panel::Measure measure;
   Frame frame = small_frame();

@@ -1,3 +1,4 @@
+import os
 import pickle
 
 import numpy as np
@@ -50,3 +51,35 @@ def test_what_is_wrong_is_named(box, changes, words):
         heml.World(box(**changes))
     assert words in str(error.value)
     assert isinstance(error.value, ValueError)
+
+
+def test_save_spares_the_mesh_that_the_scene_is_made_of(box, tmp_path):
+    heml.Scene(box()).save(tmp_path / "box.json")
+    mesh = tmp_path / "one.mesh"
+    mesh.write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n.1 0 0 0\n0 .1 0 0\n0 0 .1 0\n"
+                    "Tetrahedra\n1\n1 2 3 4 0\nEnd\n")
+    before = mesh.read_bytes()
+    with pytest.raises(heml.InputError, match="would be overwritten"):
+        heml.Scene(mesh).save(mesh)
+    assert mesh.read_bytes() == before
+    heml.Scene(tmp_path / "box.json").save(tmp_path / "box.json")  # a scene over itself
+
+
+def test_paths_are_any_bytes_but_null(box, tmp_path):
+    name = os.fsencode(tmp_path) + b"/lat\xe9.json"
+    heml.Scene(box(name="odd")).save(name)
+    for path in (name, os.fsdecode(name)):
+        scene = heml.Scene(path)
+        assert scene.file == os.fsdecode(name)
+        assert pickle.loads(pickle.dumps(scene)).file == scene.file
+        assert heml.World(path, threads=1).tick > 0
+    with pytest.raises(heml.InputError, match="missing"):
+        heml.Scene(os.fsencode(tmp_path) + b"/missing\xe9.json")
+    with pytest.raises(heml.InputError, match="null character"):
+        heml.Scene("a\0b.json")
+
+
+def test_a_state_of_something_else_is_refused():
+    for kind in (heml.Scene, heml.Snapshot):
+        with pytest.raises(ValueError, match="no state of a heml"):
+            kind.__new__(kind).__setstate__(("x", 3, 4))

@@ -135,6 +135,8 @@ const Mistake mistakes[] = {
     {R"({"solver": {"preconditioner": "jacobi"}})", "solver.preconditioner", "block_jacobi"},
     {R"({"solver": {"continuation": "yes"}})", "solver.continuation: is \"yes\"", "true or false"},
     {R"({"outputs": {"times": [0.05, 0.2]}})", "outputs.times[1]: is 0.2", "at most solver.duration, 0.1 s"},
+    {R"({"solver": {"integrator": "static", "duration": 0.1}, "outputs": {"times": [0.5, 1.5]}})",
+     "outputs.times[1]: is 1.5", "fractions of the load, at most 1"},
     {R"({"outputs": {"times": [-1]}})", "outputs.times[0]: is -1", "0 or greater"},
     {R"({"outputs": {"time": [0]}})", "outputs.time: unknown key", "did you mean 'times'?"},
     {R"({"initial": {"position": "a.csv"}})", "initial.position: unknown key", "did you mean 'positions'?"},

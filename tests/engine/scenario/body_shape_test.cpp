@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <heml/base/error.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/scenario/body_shape.hpp>
 
@@ -32,6 +33,13 @@ TetMesh gallows() {
 }
 
 }  // namespace
+
+TEST_CASE("a mesh whose elements are all given twice has no shape") {
+  TetMesh mesh = make_box(Vec3(1, 1, 1), {1, 1, 1});
+  const std::vector<Tet> once = mesh.tets;
+  mesh.tets.insert(mesh.tets.end(), once.begin(), once.end());
+  CHECK_THROWS_AS(shape_of(mesh), InputError);
+}
 
 TEST_CASE("the shape of a box") {
   const TetMesh mesh = make_box(Vec3(0.1, 0.2, 0.3), {2, 3, 4}, Vec3(1, 2, 3));

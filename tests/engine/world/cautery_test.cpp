@@ -189,6 +189,24 @@ TEST_CASE("cautery: an electrode with depth parts the tissue, and both sides of 
   CHECK_FALSE(world->halt());
 }
 
+TEST_CASE("cautery: an electrode parts tissue with nodal pressure, at once and later") {
+  // A burn that contracts nothing yet has copied the layout, to which averaged pressure refers.
+  for (const bool undone : {false, true}) {
+    WorldSetup setup = cantilever();
+    setup.solver.nodal_pressure = true;
+    const auto world = make_world(setup);
+    tick(*world, 3);
+    CauterizeTissue through = stroke(0.05);
+    for (auto& blade : through.sweep.blades) blade[0].y() = 0.1, blade[1].y() = -0.1;
+    expect(world->apply(through));
+    REQUIRE(world->edits().size() == 1);
+    CHECK(world->edits()[0].split > 0);
+    if (undone) expect(world->apply(StepHistory{-1}));
+    tick(*world, 60);
+    CHECK_FALSE(world->halt());
+  }
+}
+
 TEST_CASE("cautery: a stroke twice burns as once, and what is cut from burnt tissue inherits") {
   const WorldSetup setup = cantilever();
   const auto once = make_world(setup), twice = make_world(setup);

@@ -63,6 +63,30 @@ TEST_CASE("conditions: set before the first tick they give the bits of a world m
     }
 }
 
+TEST_CASE("conditions: a pin of listed corners holds the nodes between them, and a release lets them go") {
+  WorldSetup setup = bar(sample_material("neo_hookean"), Integrator::verlet, false);
+  const std::vector<int> corners = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; });
+  setup.boundary.clear();
+  setup.solver.quadratic = true;
+  setup.midedges = add_midedge_nodes(setup.mesh);
+  const std::vector<int> all = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; });
+  REQUIRE(all.size() > corners.size());
+  const auto world = make_world(setup);
+  PinTissue pin;
+  pin.nodes = corners;
+  expect(world->apply(pin));
+  tick(*world, 20);
+  const auto moved = [&](int n) {
+    return (world->positions()[static_cast<std::size_t>(n)] - setup.mesh.nodes[static_cast<std::size_t>(n)]).norm();
+  };
+  for (const int n : all) CHECK(moved(n) == 0);
+  Unpin unpin;
+  unpin.nodes = corners;
+  expect(world->apply(unpin));
+  tick(*world, 20);
+  for (const int n : all) CHECK(moved(n) > 0);
+}
+
 TEST_CASE("conditions: nodes that are fixed go to their place at rest, and freed ones move on from there") {
   WorldSetup setup = bar(sample_material("neo_hookean"), Integrator::verlet, false);
   setup.boundary = {{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })}};
