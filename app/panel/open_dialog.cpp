@@ -53,6 +53,8 @@ void OpenDialog::draw(Rows& rows, ImVec2 picture, PanelActions& out) {
     ImGui::BeginChild("files", {0, 0}, false, ImGuiWindowFlags_NoNav);
   }
   draw_files(rows, out);
+  if (search_[0] && search_[0] != '/' && shown_.empty())
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::muted), "Nothing here has these words.");
   ImGui::EndChild();
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !just_opened_ &&
       !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))

@@ -83,6 +83,15 @@ void draw_tooltip(ImDrawList& list, const PlotCanvas& canvas, const std::deque<R
   ImGui::EndTooltip();
 }
 
+/// On a ground of its own, so that no curve strikes it through.
+void draw_label(ImDrawList& list, const ImVec2& at, ImU32 colour, const std::string& text) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float margin = em(0.15f);
+  list.AddRectFilled({at.x - margin, at.y}, {at.x + size.x + margin, at.y + size.y},
+                     (colours::chart & 0x00ffffff) | 0xb0000000);
+  list.AddText(at, colour, text.c_str());
+}
+
 }  // namespace
 
 void plot(const char* id, const History& history, std::span<const Curve> curves, const PlotStyle& style) {
@@ -108,10 +117,9 @@ void plot(const char* id, const History& history, std::span<const Curve> curves,
   const float margin = em(0.3f);
   const float bottom = to.y - ImGui::GetTextLineHeight() - margin * 0.2f;
   const std::string span = fmt::format("last {:.0f} s", History::span);
-  list.AddText({from.x + margin, from.y + margin * 0.2f}, colours::muted,
-               text_of(canvas.axis.high, style.unit).c_str());
-  list.AddText({from.x + margin, bottom}, colours::muted, text_of(canvas.axis.low, style.unit).c_str());
-  list.AddText({to.x - margin - ImGui::CalcTextSize(span.c_str()).x, bottom}, colours::faint, span.c_str());
+  draw_label(list, {from.x + margin, from.y + margin * 0.2f}, colours::muted, text_of(canvas.axis.high, style.unit));
+  draw_label(list, {from.x + margin, bottom}, colours::muted, text_of(canvas.axis.low, style.unit));
+  draw_label(list, {to.x - margin - ImGui::CalcTextSize(span.c_str()).x, bottom}, colours::faint, span);
   if (ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown()) draw_tooltip(list, canvas, readings, curves, style.unit);
 }
 

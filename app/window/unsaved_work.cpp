@@ -1,13 +1,18 @@
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <app/window/state_folder.hpp>
 #include <app/window/unsaved_work.hpp>
 #include <cerrno>
 #include <charconv>
+#include <cstdlib>
+#include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/write_file.hpp>
+#include <iterator>
+#include <sstream>
 
 namespace heml::window {
 namespace {
@@ -35,7 +40,29 @@ pid_t writer_of(const fs::path& path) {
   return writer;
 }
 
-bool still_runs(pid_t program) { return kill(program, 0) == 0 || errno != ESRCH; }
+/// When a program began, s since 1970, to a second; none where the system does not tell.
+std::optional<double> start_of(pid_t program) {
+  std::ifstream stat(fmt::format("/proc/{}/stat", program)), system("/proc/stat");
+  std::string text((std::istreambuf_iterator<char>(stat)), {}), word;
+  double boot = 0, ticks = 0;
+  for (std::string line; std::getline(system, line);)
+    if (line.starts_with("btime ")) boot = std::atof(line.c_str() + 6);
+  // Fields after the name, which is in parentheses and may hold spaces: state is the third, the start the 22nd.
+  std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+  for (int field = 3; field < 22 && fields >> word; ++field) continue;
+  if (!(boot > 0) || !(fields >> ticks)) return std::nullopt;
+  return boot + ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+/// Whether the program that wrote a file goes on. Another may have its number since: it began after the file was
+/// written.
+bool still_runs(pid_t program, const fs::path& file) {
+  constexpr double precision = 2;  // s, of both times
+  if (kill(program, 0) != 0 && errno == ESRCH) return false;
+  struct stat status {};
+  const std::optional<double> start = start_of(program);
+  return !start || stat(file.c_str(), &status) != 0 || *start < static_cast<double>(status.st_mtime) + precision;
+}
 
 /// Returns false if there is too much to write.
 bool write_recording(Scene scene, const fs::path& path) {
@@ -84,6 +111,7 @@ void UnsavedWork::scene_saved() {
 void UnsavedWork::adopt(const fs::path& left) {
   std::error_code failed;
   fs::rename(left, file(), failed);
+  fs::last_write_time(file(), fs::file_time_type::clock::now(), failed);  // or it would seem to be of another program
   changed_ = by_tools_ = true;
 }
 
@@ -104,10 +132,15 @@ std::optional<fs::path> UnsavedWork::left_behind() {
   std::error_code failed;
   for (fs::directory_iterator entry(state_folder(), failed), end; !failed && entry != end; entry.increment(failed)) {
     const pid_t writer = writer_of(entry->path());
-    if (writer <= 0 || still_runs(writer)) continue;
+    if (writer <= 0 || still_runs(writer, entry->path())) continue;
     std::error_code unknown;
     if (!latest || fs::last_write_time(entry->path(), unknown) > fs::last_write_time(*latest, unknown))
       latest = entry->path();
+  }
+  if (latest && *latest == file()) {  // of an earlier program of this number, as in containers: this one writes there
+    const fs::path aside = fs::path(*latest).replace_filename(fmt::format("{}{}-earlier.jsonl", file_stem, getpid()));
+    fs::rename(*latest, aside, failed);
+    if (!failed) latest = aside;
   }
   return latest;
 }

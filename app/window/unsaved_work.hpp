@@ -34,7 +34,7 @@ class UnsavedWork {
   /// Writes a recording of a scene of Session::until(). Returns at once.
   void save(Scene scene);
 
-  /// The latest file that a program has left which no longer runs.
+  /// The latest file that a program has left which no longer runs, though another may have its number by now.
   static std::optional<std::filesystem::path> left_behind();
 
  private:

@@ -294,11 +294,14 @@ bool Viewer::is_being_replaced() const {
   return session_loader_.is_busy() && (restores_ || !session_loader_.progress());
 }
 
+std::string Viewer::why_busy() const {
+  return restores_ ? "What was done last time is being restored. Esc ends that." : "Another file is being opened.";
+}
+
 void Viewer::post(std::vector<Command>& commands) {
   const auto lets_go = [](const Command& command) { return std::holds_alternative<Release>(command); };
   if (is_being_replaced() && !std::all_of(commands.begin(), commands.end(), lets_go)) {
-    panel_->notify(restores_ ? "What was done last time is being restored. Esc ends that."
-                             : "Another file is being opened.");
+    panel_->notify(why_busy());
     return commands.clear();
   }
   const auto does_nothing = [&](const Command& command) {

@@ -94,6 +94,7 @@ class Viewer final : public WindowEvents {
   void post(std::vector<Command>& commands);
   void cancel_replay();
   bool is_being_replaced() const;
+  std::string why_busy() const;
   void ask_about_work(const std::string& title, std::function<void()> then);
   void offer_left_work();
   void answer(std::size_t which);

@@ -104,7 +104,7 @@ void Viewer::open_again(const BareMeshOptions& options) {
 
 void Viewer::open_now(const std::filesystem::path& path, const BareMeshOptions& options,
                       const std::vector<std::string>& comparisons) {
-  if (session_loader_.is_busy()) return panel_->notify("Another file is being opened.");
+  if (session_loader_.is_busy()) return panel_->notify(why_busy());
   panel_->notify("Opening " + path.filename().string() + " …");
   session_loader_.begin(path, options_.record, options, comparisons);
 }

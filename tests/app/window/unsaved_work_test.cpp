@@ -1,4 +1,6 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <app/window/unsaved_work.hpp>
 #include <fstream>
@@ -75,6 +77,27 @@ TEST_CASE("the file of a program that ended is offered and taken over") {
   CHECK(work.any());
   CHECK_FALSE(fs::exists(left));
   CHECK_FALSE(UnsavedWork::left_behind());
+}
+
+TEST_CASE("the file of a program whose number another has now is offered, this one's too, and stays") {
+  const StateFolder state;
+  fs::create_directories(state_folder());
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(24 * 3650);
+  const fs::path first = state_folder() / "unsaved-1.jsonl";  // process 1 always runs
+  std::ofstream(first) << recording_of(small_work(), state_folder());
+  CHECK_FALSE(UnsavedWork::left_behind());
+  fs::last_write_time(first, long_ago);
+  CHECK(UnsavedWork::left_behind() == first);
+  const fs::path own = state_folder() / fmt::format("unsaved-{}.jsonl", getpid());
+  fs::rename(first, own);
+  const auto left = UnsavedWork::left_behind();
+  REQUIRE(left);
+  CHECK(*left != own);
+  CHECK(UnsavedWork::left_behind() == left);  // later
+  UnsavedWork work;
+  work.adopt(*left);
+  CHECK(fs::exists(own));
+  CHECK_FALSE(UnsavedWork::left_behind());  // now it is this program's
 }
 
 }  // namespace heml::unsaved_work_test
