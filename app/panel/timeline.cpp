@@ -121,6 +121,12 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
       ImGui::AlignTextToFramePadding();
       ImGui::Text("Replaying %d %%", *time.resume_progress);
       rows.explain({"Replaying", "Replays the session up to that time as fast as possible; Esc cancels."});
+    } else if (time.is_opening) {
+      ImGui::AlignTextToFramePadding();
+      ImGui::TextUnformatted("Opening …");
+      rows.explain(
+          {"Opening",
+           "Another file is being read. What is done to this body meanwhile would be lost, so it takes no changes."});
     } else if (back) {
       if (rows.button({"Resume",
                        "Resumes from this time by replaying the session up to it, bit for bit; a recording "

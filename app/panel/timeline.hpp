@@ -33,6 +33,7 @@ struct Timeline {
   std::size_t bytes = 0, room = 0;     ///< memory of the frames kept; its limit
   long fast_forward_target = 0;        ///< a tick that the engine fast-forwards to; 0: none
   std::optional<int> resume_progress;  ///< %, of the replay that leads to a resumed time
+  bool is_opening = false;             ///< another file is being opened
 };
 
 /// Simulated seconds since the start at a tick; exact for the shown one where the rate has changed.

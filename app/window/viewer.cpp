@@ -111,6 +111,7 @@ void Viewer::draw() {
   follow_script();
   panel::Timeline timeline = playback_.timeline(open_.scene, live);
   timeline.resume_progress = shown_progress_ = session_loader_.progress();
+  timeline.is_opening = session_loader_.is_busy() && !timeline.resume_progress;
   panel_->set_timeline(timeline);
   for (std::size_t view = 0; view < panel::CameraController::views; ++view)
     panel_->view().set_saved(view, controller_.has_view(view));
