@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/base/error.hpp>
+#include <heml/mesh/connected_parts.hpp>
 #include <heml/mesh/coordinates.hpp>
 #include <heml/mesh/faces.hpp>
 #include <heml/mesh/quality.hpp>
@@ -121,28 +122,17 @@ void measure_shape(const TetMesh& mesh, QualityReport& report) {
   report.high = box.max();
 }
 
-// Counts orphans, and parts connected by nodes (union-find with path halving).
+// Counts orphans, and parts connected by nodes.
 void count_components(const TetMesh& mesh, const MidEdges* midedges, QualityReport& report) {
-  std::vector<int> parent(mesh.nodes.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  const std::vector<int> part = connected_parts(mesh, midedges ? *midedges : MidEdges());
   std::vector<char> used(mesh.nodes.size(), 0);
-  const auto root = [&](int n) {
-    while (parent[n] != n) n = parent[n] = parent[parent[n]];
-    return n;
-  };
   for (const Tet& tet : mesh.tets)
-    for (int node : tet) {
-      used[node] = 1;
-      parent[root(node)] = root(tet[0]);
-    }
+    for (int node : tet) used[node] = 1;
   for (std::size_t t = 0; midedges && t < midedges->size(); ++t)
-    for (int node : (*midedges)[t]) {
-      used[node] = 1;
-      parent[root(node)] = root(mesh.tets[t][0]);
-    }
+    for (int node : (*midedges)[t]) used[node] = 1;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     report.orphans += !used[n];
-    report.components += used[n] && parent[n] == static_cast<int>(n);
+    report.components += used[n] && part[n] == static_cast<int>(n);
   }
 }
 

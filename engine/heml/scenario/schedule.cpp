@@ -56,8 +56,7 @@ void Schedule::watch_stroke(const Event& event, bool met) {
   if (std::holds_alternative<CutTissue>(event.command))
     warn(
         "{}: events: step {}: the cut parted nothing: its blade passes beside the body as it lies then, or is too "
-        "short to "
-        "part an element",
+        "short to part an element",
         file_, event.tick);
   else
     warn("{}: events: step {}: the electrode burnt nothing: no tissue that it could still burn is within its radius",

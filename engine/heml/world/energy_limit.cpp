@@ -57,7 +57,8 @@ bool take_back_gain(Simulation<Real>& s, double time, const Vector& x, Vector& v
   const Vector rigid = motions.velocity(x, v), inner = v - rigid;
   const double moves_within = kinetic_energy(parts, inner);
   const double moved_within = moved - kinetic_energy(parts, motions.velocity(parts.x, parts.v));
-  const double may_within = *before - *after - motions.weight_work(s.gravity(), parts.x, x) + moved_within;
+  const double may_within =
+      *before - *after - motions.weight_work(s.masses->heavy(), s.gravity(), parts.x, x) + moved_within;
   if (!(moves_within > may_within)) return true;  // a gain of the motion as a whole alone: the method's own error
   v = rigid + std::sqrt(std::max(may_within, 0.0) / moves_within) * inner;
   return may_within >= 0 || moves_within - may_within <= round_off;
@@ -74,14 +75,8 @@ bool limit_energy(Simulation<Real>& s, double h, double time, bool always, Vecto
   const auto at_start = parts.body.value(start);  // with the loads of the end: what they do on the way is in it
   if (!at_start && !always) return false;
   const RigidMotions& motions = parts.rigid_motions(*s.model);
-  const bool alone = at_start && flies_alone(s) && !motions.empty();
-  const double may = at_start.value_or(0) + kinetic_energy(parts, parts.v) -
-                     (alone ? kinetic_energy(parts, motions.velocity(parts.x, parts.v)) : 0);
-  const auto energy_at = [&](const Vector& there) {
-    const double value = parts.body.value(there).value_or(0);
-    return alone ? value + motions.weight_work(s.gravity(), start, there) : value;
-  };
-  double has = energy_at(x);
+  const double may = at_start.value_or(0) + kinetic_energy(parts, parts.v);
+  double has = parts.body.value(x).value_or(0);
   // Going back does not help where round-off alone is in the way, as in a body at rest.
   const double round_off = round_off_fraction * parts.body.value_round_off();
   Vector places[] = {start, start, start};  // the start moved as a whole to x; slid to x along what it touches there
@@ -95,9 +90,9 @@ bool limit_energy(Simulation<Real>& s, double h, double time, bool always, Vecto
     const Vector& back = places[std::min(3 * k / max_halvings, 2)];
     x = k < max_halvings ? Vector(back + (x - back) / 2) : start;
     v = (x - parts.x) / h;
-    has = energy_at(x);
+    has = *parts.body.value(x);
   }
-  const double left = std::max(may - has, 0.0) + (alone ? kinetic_energy(parts, motions.velocity(x, v)) : 0);
+  const double left = std::max(may - has, 0.0);
   if (kinetic_energy(parts, v) > left) slow_down(s, left, x, v);
   return true;
 }

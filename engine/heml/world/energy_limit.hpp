@@ -1,7 +1,7 @@
 #pragma once
 // What a step has gained in energy is taken back: implicit methods of second order gain some where a step is long for
-// what it passes, and iterates that are no solution may gain any amount. The motion of free parts as a whole is left
-// alone (rigid_motions.hpp), since nothing inside a body can change it.
+// what it passes, and iterates that are no solution may gain any amount. The motion of free parts as a whole is spared
+// as long as there is other energy to take (rigid_motions.hpp), since nothing inside a body can change it.
 #include <heml/world/simulation.hpp>
 
 namespace heml {

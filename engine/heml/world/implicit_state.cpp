@@ -1,7 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <heml/mesh/connected_parts.hpp>
 #include <heml/world/implicit_state.hpp>
-#include <numeric>
 
 namespace heml {
 namespace {
@@ -164,23 +164,14 @@ bool holds_all_rigid_motions(const std::vector<std::pair<Vec3, AxisSet>>& held) 
 template <class Real>
 bool is_well_constrained(const Model<Real>& model, const std::vector<ConstrainedNode>& constrained) {
   const TetMesh& mesh = model.mesh;
-  std::vector<int> part(mesh.nodes.size());
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&](int n) {
-    while (part[static_cast<std::size_t>(n)] != n)
-      n = part[static_cast<std::size_t>(n)] = part[static_cast<std::size_t>(part[static_cast<std::size_t>(n)])];
-    return n;
-  };
-  for (const Tet& tet : mesh.tets)
-    for (const int n : tet) part[static_cast<std::size_t>(root(n))] = root(tet[0]);
-  for (std::size_t t = 0; t < model.midedges.size(); ++t)
-    for (const int n : model.midedges[t]) part[static_cast<std::size_t>(root(n))] = root(mesh.tets[t][0]);
-  std::vector<std::vector<std::pair<Vec3, AxisSet>>> held(mesh.nodes.size());  // at the root of their part
+  const std::vector<int> part = connected_parts(mesh, model.midedges);
+  std::vector<std::vector<std::pair<Vec3, AxisSet>>> held(mesh.nodes.size());  // at the node that stands for their part
   for (const ConstrainedNode& h : constrained)
-    held[static_cast<std::size_t>(root(h.node))].emplace_back(mesh.nodes[static_cast<std::size_t>(h.node)], h.axes);
+    held[static_cast<std::size_t>(part[static_cast<std::size_t>(h.node)])].emplace_back(
+        mesh.nodes[static_cast<std::size_t>(h.node)], h.axes);
   std::vector<bool> looked_at(mesh.nodes.size(), false);
   for (const Tet& tet : mesh.tets) {
-    const auto here = static_cast<std::size_t>(root(tet[0]));
+    const auto here = static_cast<std::size_t>(part[static_cast<std::size_t>(tet[0])]);
     if (looked_at[here]) continue;
     looked_at[here] = true;
     if (!holds_all_rigid_motions(held[here])) return false;

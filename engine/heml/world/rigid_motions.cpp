@@ -1,42 +1,21 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <heml/mesh/connected_parts.hpp>
 #include <heml/world/rigid_motions.hpp>
 #include <map>
-#include <numeric>
 
 namespace heml {
 namespace {
 
 Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 
-/// Of each node, the least one of its part; nodes of no element are their own.
-std::vector<int> parts_of(const TetMesh& mesh, const MidEdges& midedges) {
-  std::vector<int> parent(mesh.nodes.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int n) {
-    while (parent[static_cast<std::size_t>(n)] != n)
-      n = parent[static_cast<std::size_t>(n)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(n)])];
-    return n;
-  };
-  const auto join = [&](int a, int b) {
-    a = root(a), b = root(b);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  };
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    for (const int n : mesh.tets[t]) join(mesh.tets[t][0], n);
-    if (midedges.empty()) continue;
-    for (const int n : midedges[t]) join(mesh.tets[t][0], n);
-  }
-  for (std::size_t n = 0; n < parent.size(); ++n) parent[n] = root(static_cast<int>(n));
-  return parent;
-}
-
 }  // namespace
 
 RigidMotions::RigidMotions(const TetMesh& mesh, const MidEdges& midedges, Vector mass) : mass_(std::move(mass)) {
   std::map<int, std::vector<int>> parts;
-  const std::vector<int> part = parts_of(mesh, midedges);
+  const std::vector<int> part = connected_parts(mesh, midedges);
   for (std::size_t n = 0; n < part.size(); ++n) parts[part[n]].push_back(static_cast<int>(n));
   const auto is_free = [&](int n) { return mass_.segment<3>(3 * n).minCoeff() > 0; };
   for (auto& [first, nodes] : parts)
@@ -96,13 +75,6 @@ Vector RigidMotions::slid(const Vector& from, const Vector& to, const Vector& fo
     for (const int n : part) result.segment<3>(3 * n) += way;
   }
   return result;
-}
-
-double RigidMotions::weight_work(const Vec3& gravity, const Vector& from, const Vector& to) const {
-  double sum = 0;
-  for (const std::vector<int>& part : parts_)
-    for (const int n : part) sum += mass_[3 * n] * gravity.dot(Vec3(at(to, n) - at(from, n)));
-  return sum;
 }
 
 }  // namespace heml

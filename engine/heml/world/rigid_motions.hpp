@@ -23,8 +23,16 @@ class RigidMotions {
   /// `from` with each part displaced by its mean displacement to `to`, but for what goes along the sum of its forces
   /// (3 #V, N): so a body that meets another slides on along it.
   Vector slid(const Vector& from, const Vector& to, const Vector& forces) const;
-  /// Work of gravity (m/s²) on the way of these parts, J.
-  double weight_work(const Vec3& gravity, const Vector& from, const Vector& to) const;
+  /// Work of gravity (m/s²) on the way of these parts, J. heavy: #V, kg, masses that it acts on.
+  template <class Real>
+  double weight_work(const std::vector<Real>& heavy, const Vec3& gravity, const Vector& from, const Vector& to) const {
+    double sum = 0;
+    for (const std::vector<int>& part : parts_)
+      for (const int n : part)
+        sum += static_cast<double>(heavy[static_cast<std::size_t>(n)]) *
+               gravity.dot(Vec3(to.segment<3>(3 * n) - from.segment<3>(3 * n)));
+    return sum;
+  }
 
  private:
   Vec3 centre(const std::vector<int>& part, const Vector& x) const;
