@@ -57,7 +57,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
   at.value = objective.value(at.x);
   Vector d;
   const bool may_project = linear.projection() != Projection::none;
-  bool by_projection = may_project && linear.preconditioner() == Preconditioner::cholesky;
+  bool by_projection = may_project && (options.projects_first || linear.preconditioner() == Preconditioner::cholesky);
   const double first = at.r.norm();
   const auto finish = [&](NewtonResult::Status status) {
     x = at.x;

@@ -75,8 +75,12 @@ bool limit_energy(Simulation<Real>& s, double h, double time, bool always, Vecto
   const auto at_start = parts.body.value(start);  // with the loads of the end: what they do on the way is in it
   if (!at_start && !always) return false;
   const RigidMotions& motions = parts.rigid_motions(*s.model);
+  const auto energy_at = [&parts](const Vector& place) {
+    const auto energy = parts.body.value(place);
+    return energy && std::isfinite(*energy) ? *energy : std::numeric_limits<double>::infinity();
+  };
   const double may = at_start.value_or(0) + kinetic_energy(parts, parts.v);
-  double has = parts.body.value(x).value_or(0);
+  double has = energy_at(x);
   // Going back does not help where round-off alone is in the way, as in a body at rest.
   const double round_off = round_off_fraction * parts.body.value_round_off();
   Vector places[] = {start, start, start};  // the start moved as a whole to x; slid to x along what it touches there
@@ -90,7 +94,7 @@ bool limit_energy(Simulation<Real>& s, double h, double time, bool always, Vecto
     const Vector& back = places[std::min(3 * k / max_halvings, 2)];
     x = k < max_halvings ? Vector(back + (x - back) / 2) : start;
     v = (x - parts.x) / h;
-    has = *parts.body.value(x);
+    has = energy_at(x);
   }
   const double left = std::max(may - has, 0.0);
   if (kinetic_energy(parts, v) > left) slow_down(s, left, x, v);

@@ -35,7 +35,9 @@ struct ImplicitState {
   Vector x, v;                ///< 3 #V, the state in double
   Vector x_before, v_before;  ///< one step earlier, for BDF2
   double h_before = 0;        ///< s; 0: there was none
-  Vector unbalanced;          ///< 3 #V, N, what the last solve of that step left of forces less inertia
+  /// 3 #V, N, what the last solve of that step left of forces less inertia; empty where the step was put back since
+  /// (energy_limit.hpp).
+  Vector unbalanced;
   std::optional<StaticSolve> equilibrium;
   std::optional<RigidMotions> motions;  ///< of the parts as they are; see rigid_motions()
 

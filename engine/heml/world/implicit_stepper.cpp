@@ -94,7 +94,7 @@ class ImplicitStepper<Real>::StagedStep final : public ImplicitStep {
     const Simulation<Real>& s = stepper_.s_;
     const ImplicitState<Real>& parts = *s.implicit;
     Vector f = as_vector(s.state.f);
-    if (s.setup->solver.budget && parts.h_before > 0) f -= parts.unbalanced;
+    if (s.setup->solver.budget && parts.h_before > 0 && parts.unbalanced.size() > 0) f -= parts.unbalanced;
     const Vector of_forces = (parts.mass.array() > 0).select(f.array() / parts.mass.array(), 0);
     return of_forces - s.setup->solver.damping * *v_start;
   }
@@ -130,12 +130,14 @@ bool ImplicitStepper<Real>::damped_step(double h, double time_after) {
 
 /// Whether most of the velocity is what incomplete solves have left in stiff elements: flying on for h would strain
 /// the body as modes of ω h > 2 do. The trapezoidal rule turns that round from step to step; one step of backward Euler
-/// damps it. Asked under a budget, of bodies whose potential tells.
+/// damps it. Asked under a budget, of bodies whose potential tells, and of all after a step that was put back, which
+/// solves no equation that an acceleration could be taken from.
 template <class Real>
 bool ImplicitStepper<Real>::is_noisy(double h, double time_after) {
   if (!s_.setup->solver.budget || s_.method != Integrator::tr_bdf2) return false;
-  if (s_.has_internal_state || !s_.contacts.empty()) return false;
   ImplicitState<Real>& parts = s_.implicit_state();
+  if (parts.h_before > 0 && parts.unbalanced.size() == 0) return true;
+  if (s_.has_internal_state || !s_.contacts.empty()) return false;
   const Vector x = as_vector(s_.state.x), v = as_vector(s_.state.v);
   parts.body.set_time(time_after, s_.setup->gravity);
   parts.body.move_tools(time_after);
@@ -179,6 +181,7 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
     if (s_.has_internal_state) s_.body.begin_step(0);
     return false;
   }
+  const Vector solved = x;
   if (takes_any_iterate() && limit_energy(s_, h, time_after, takes_best_, x, v)) {
     parts.step.residual(x, residual_);  // forces are taken from what the objective saw last
     s_.stats.residual = parts.body.relative_residual(residual_);
@@ -187,7 +190,7 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
   parts.x_before = parts.x;
   parts.v_before = parts.v;
   parts.h_before = h;
-  parts.unbalanced = residual_;
+  parts.unbalanced = x == solved ? residual_ : Vector();
   s_.set_state(x, v, time_after);
   if (s_.has_internal_state) {
     s_.body.commit(s_.state.x.data());
@@ -270,6 +273,7 @@ NewtonResult ImplicitStepper<Real>::minimise_stage(double least_limit, Vector& x
   }
   NewtonOptions options;
   options.max_iterations = most;
+  options.projects_first = s_.setup->solver.budget.has_value();
   return minimise(parts.step, parts.linear, criterion, options, x);
 }
 

@@ -3,6 +3,8 @@
 namespace heml {
 namespace {
 
+constexpr double max_strain = 0.1;  // of inertia: what few iterations take out again
+
 /// Where velocities alone take free nodes.
 template <class Real>
 Vector flight(const Simulation<Real>& s, const Stage& stage, double time, const Vector& x) {
@@ -20,6 +22,14 @@ Vector fall(const Simulation<Real>& s, const Stage& stage, double time, const Ve
   for (Eigen::Index i = 0; i < result.size(); ++i)
     if (s.implicit->mass[i] > 0) result[i] += by_gravity[i % 3];
   return result;
+}
+
+/// Whether a flight by `way` strains the body so little that its stiffness counts for no more than max_strain beside
+/// inertia: from Δ·(aM + K)Δ, which is twice what Φ rises by (`rise`) above its slope −r at the start.
+template <class Real>
+bool is_gentle(const Simulation<Real>& s, const Stage& stage, const Vector& way, double rise, const Vector& r) {
+  const double inertia = stage.a(s.setup->solver.damping) * (s.implicit->mass.array() * way.array().square()).sum();
+  return 2 * (rise + r.dot(way)) <= (1 + max_strain) * inertia;
 }
 
 /// `stay` with its free parts moved as a whole to where they would fall, or along what they would meet there.
@@ -56,7 +66,9 @@ Vector stage_start(Simulation<Real>& s, const Stage& stage, double time, const V
     if (moving && *moving < *staying && *moving < *flying && is_defined(moved, r)) return moved;
   }
   if (staying && flying) {
-    const bool flies = *flying < *staying;
+    const bool must_be_gentle = s.setup->solver.budget && info_of(s.method).stages > 1;
+    const bool flies = *flying < *staying && (!must_be_gentle || !is_defined(stay, r_stay) ||
+                                              is_gentle(s, stage, fly - stay, *flying - *staying, r_stay));
     const Vector &lower = flies ? fly : stay, &higher = flies ? stay : fly;
     if (is_defined(lower, r)) return lower;
     if (is_defined(higher, r)) return higher;

@@ -10,8 +10,12 @@ template <class Real>
 void place_supports(const Model<Real>& model, double time, Vector& x);
 
 /// Of where the body is, x, and where it would fly: the one with the lower Φ (without this guard, methods of few
-/// iterations gain energy without bound). Under a budget also where free parts would fall as a whole, or along what
-/// they would meet: an iteration whose step is cut short elsewhere holds back all of the motion, and momentum is lost.
+/// iterations gain energy without bound). Under a budget:
+/// - also where free parts would fall as a whole, or along what they would meet: an iteration whose step is cut short
+///   elsewhere holds back all of the motion, and momentum is lost;
+/// - methods of two stages fly only where that hardly strains the body: an iteration leaves some of that strain, and
+///   the next stage starts with a velocity that is off by that over its length. After some stages elements are
+///   compressed until the stiffness has negative curvature.
 /// Where held nodes move so far that none of them is possible, along the tangent. time: s, at the end of the stage.
 template <class Real>
 Vector stage_start(Simulation<Real>& s, const Stage& stage, double time, const Vector& x);

@@ -114,4 +114,27 @@ TEST_CASE("a body that falls on a table without friction slides on under a budge
   CHECK(std::abs(mean_velocity(*world).y()) < 0.05);
 }
 
+TEST_CASE("a body on a table without friction stays there under a budget, of every implicit method") {
+  for (const Integrator integrator : implicit_integrators())
+    for (const bool single : {false, true})
+      for (const int iterations : {1, 2}) {
+        WorldSetup setup;
+        setup.mesh = make_box(Vec3::Constant(0.03), {1, 1, 1});
+        setup.materials = {{std::nullopt, soft("neo_hookean", 3e4, 0.3)}};
+        setup.solver.integrator = integrator;
+        setup.solver.single_precision = single;
+        setup.solver.threads = 1;
+        setup.solver.budget = Budget{iterations, 0};
+        setup.tables = {{Vec3::Zero(), Vec3::UnitY(), 0}};
+        setup.gravity = Vec3(0, -9.81, 0);
+        auto world = make_world(setup);
+        while (world->time() < 4) world->tick();
+        CAPTURE(integrator_name(integrator));
+        CAPTURE(single);
+        REQUIRE_FALSE(world->halt());
+        CHECK(rms_difference(world->positions(), setup.mesh.nodes) < 1e-3);
+        CHECK(world->energies().kinetic < 1e-5);
+      }
+}
+
 }  // namespace heml::energy_limit_test
