@@ -10,6 +10,7 @@ namespace heml {
 namespace {
 constexpr int max_cg_iterations = 500;
 constexpr double first_shift = 1e-4;          // relative to the stiffness along the residual
+constexpr int max_stagnation = 50;            // iterations of BiCGSTAB without a smaller residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
 // An outdated factor serves while the body has this part of its elements.
 constexpr double min_element_fraction = 2.0 / 3;
@@ -283,13 +284,14 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, do
   return true;
 }
 
-/// BiCGSTAB (van der Vorst 1992), right preconditioned. On breakdown d is the best iterate so far.
+/// BiCGSTAB (van der Vorst 1992), right preconditioned. On breakdown, and where it makes no progress, d is the best
+/// iterate so far.
 bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d) {
   Vector left = r, p = Vector::Zero(r.size()), q = p, z, t;
   double rho = 1, alpha = 1, omega = 1, least = r.norm();
   Vector best;
   apply(r, best);  // fallback: a direction of the symmetric part
-  for (int k = 0; k < max_iterations_ && left.norm() > enough; ++k) {
+  for (int k = 0, best_at = 0; k < max_iterations_ && left.norm() > enough && k - best_at < max_stagnation; ++k) {
     const double rho_now = r.dot(left), beta = rho_now / rho * alpha / omega;
     rho = rho_now;
     p = left + beta * (p - omega * q);
@@ -308,6 +310,7 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, 
     if (left.norm() < least) {
       least = left.norm();
       best = d;
+      best_at = k;
     }
   }
   d = best;

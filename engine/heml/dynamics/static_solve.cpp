@@ -155,7 +155,11 @@ Vector StaticSolve::predict(double next) {
 bool StaticSolve::solve(Vector& x) {
   last_iterations_ = 0;
   do {
-    const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
+    NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
+    if (newton.at_round_off && newton.measure > stop_.limit && refine()) {
+      iterations_ += newton.iterations;
+      newton = minimise(body_, linear_, stop_, newton_options, x);
+    }
     iterations_ += newton.iterations;
     stalled_ = newton.status == NewtonResult::Status::stalled;
     last_iterations_ = std::max(last_iterations_, newton.iterations);

@@ -28,6 +28,22 @@ void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, co
                      "select all three nodes of at least one boundary face");
 }
 
+/// A force is shared equally by its nodes, so what nodes of no element get is lost.
+void warn_of_loose_nodes(const std::vector<int>& nodes, const WorldSetup& setup, const std::string& file,
+                         const std::string& place) {
+  std::vector<bool> used(setup.mesh.nodes.size(), false);
+  const auto use = [&](const auto& element) {
+    for (const int n : element) used[static_cast<std::size_t>(n)] = true;
+  };
+  for (const Tet& tet : setup.mesh.tets) use(tet);
+  for (const auto& middles : setup.midedges) use(middles);
+  const auto loose =
+      std::count_if(nodes.begin(), nodes.end(), [&](int n) { return !used[static_cast<std::size_t>(n)]; });
+  if (loose > 0)
+    warn("{}: {}: {} of its {} nodes belong to no element, and their share of the force acts on nothing", file, place,
+         loose, nodes.size());
+}
+
 void tag_regions(const Scene& scene, TetMesh& mesh) {
   const Topology topology = scene.regions.empty() ? Topology() : full_topology(mesh);
   for (std::size_t i = 0; i < scene.regions.size(); ++i) {
@@ -81,6 +97,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges) {
     Load load = scene.loads[i].load;
     load.nodes = select_nodes(scene.loads[i].where, setup, scene.file, place);
     if (load.kind != Load::Kind::force) expect_a_face(load.nodes, faces, scene.file, place);
+    if (load.kind == Load::Kind::force) warn_of_loose_nodes(load.nodes, setup, scene.file, place);
     setup.loads.push_back(std::move(load));
   }
   setup.tables = scene.tables;
@@ -100,6 +117,11 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges) {
     warn("{}: solver.precision: float does not resolve a body so far from the origin; it is computed in double "
          "(\"translate\" in the mesh brings it near)",
          scene.file);
+  if (use_double_for_memory(setup))
+    warn(
+        "{}: solver.precision: float does not refine static solves of materials with internal state (viscosity, "
+        "relaxation); they are computed in double",
+        scene.file);
   return scene.mesh.refine ? refined_setup(scene, std::move(setup)) : setup;
 }
 

@@ -9,6 +9,17 @@
 #include <set>
 
 namespace heml {
+namespace {
+
+/// Returns whether that is a change.
+bool use_double(SolverSettings& solver) {
+  if (!solver.single_precision) return false;
+  solver.tolerance = solver.relative_tolerance();
+  solver.single_precision = false;
+  return true;
+}
+
+}  // namespace
 
 bool fits_single_precision(const WorldSetup& setup) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -22,12 +33,13 @@ bool fits_single_precision(const WorldSetup& setup) {
   return setup.mesh.nodes.empty() || farthest <= 32 * (high - low).norm();
 }
 
-bool use_double_far_away(WorldSetup& setup) {
-  SolverSettings& solver = setup.solver;
-  if (!solver.single_precision || fits_single_precision(setup)) return false;
-  solver.tolerance = solver.relative_tolerance();
-  solver.single_precision = false;
-  return true;
+bool use_double_far_away(WorldSetup& setup) { return !fits_single_precision(setup) && use_double(setup.solver); }
+
+bool use_double_for_memory(WorldSetup& setup) {
+  return setup.solver.integrator == Integrator::static_equilibrium &&
+         std::any_of(setup.materials.begin(), setup.materials.end(),
+                     [](const RegionMaterial& entry) { return entry.material.has_internal_state(); }) &&
+         use_double(setup.solver);
 }
 
 int material_of_region(int region, const std::vector<RegionMaterial>& materials) {

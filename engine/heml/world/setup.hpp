@@ -130,6 +130,10 @@ bool fits_single_precision(const WorldSetup& setup);
 /// changed the setup. make_world() does this too.
 bool use_double_far_away(WorldSetup& setup);
 
+/// The same for static solves of materials with internal state: where values of float are round-off, other bodies are
+/// evaluated in double, which that state is not kept in.
+bool use_double_for_memory(WorldSetup& setup);
+
 /// The entry of `materials` for elements of a region: its own, or the default; −1: there is neither.
 int material_of_region(int region, const std::vector<RegionMaterial>& materials);
 

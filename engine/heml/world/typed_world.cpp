@@ -336,6 +336,7 @@ WorldFacts TypedWorld<Real>::facts() {
 
 std::unique_ptr<World> make_world(WorldSetup setup) {
   use_double_far_away(setup);
+  use_double_for_memory(setup);
   if (setup.solver.single_precision) return std::make_unique<TypedWorld<float>>(std::move(setup));
   return std::make_unique<TypedWorld<double>>(std::move(setup));
 }

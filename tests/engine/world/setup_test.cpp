@@ -35,6 +35,7 @@ TEST_CASE("a body in float near the origin stays in float") {
   WorldSetup setup = box_at(Vec3(1, -2, 0.5));
   CHECK(fits_single_precision(setup));
   CHECK_FALSE(use_double_far_away(setup));
+  CHECK_FALSE(use_double_for_memory(setup));
   CHECK(make_world(setup)->setup().solver.single_precision);
 }
 
@@ -52,6 +53,16 @@ TEST_CASE("where a body starts counts, not only where its mesh lies") {
   WorldSetup setup = box_at(Vec3::Zero());
   setup.initial_positions = box_at(Vec3(0, 0, 1e3)).mesh.nodes;
   CHECK_FALSE(fits_single_precision(setup));
+}
+
+TEST_CASE("static solves of materials with memory are done in double, to the tolerance of float") {
+  WorldSetup setup = box_at(Vec3::Zero());
+  setup.materials[0].material.viscosity = 10;
+  CHECK_FALSE(use_double_for_memory(setup));
+  setup.solver.integrator = Integrator::static_equilibrium;
+  const auto world = make_world(setup);
+  CHECK_FALSE(world->setup().solver.single_precision);
+  CHECK(world->setup().solver.relative_tolerance() == 1e-4);
 }
 
 TEST_CASE("an empty mesh is nowhere") { CHECK(fits_single_precision(WorldSetup{})); }
