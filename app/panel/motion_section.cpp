@@ -8,6 +8,8 @@
 namespace heml::panel {
 namespace {
 
+constexpr double max_gravity = 1000;  // m/s², of a component that is typed
+
 struct Direction {
   const char* name;
   Vec3 vector;
@@ -89,7 +91,8 @@ void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {
     }
   }
   if (changed) typed_ = strength_ * direction_;
-  if (chosen == 6 && rows.vector({"Gravity x, y, z", "The same by its components, m/s²."}, typed_, "%.4g")) {
+  if (chosen == 6 && rows.vector({"Gravity x, y, z", "The same by its components, m/s²."}, typed_,
+                                 {-max_gravity, max_gravity, "%.4g"})) {
     sync(SetGravity{typed_});
     changed = true;
   }

@@ -1,6 +1,7 @@
 #pragma once
 // Nodes chosen in the image (window/selection_drag.hpp), to fix or load (selection_section.hpp).
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <vector>
 
@@ -13,6 +14,10 @@ class NodeSelection {
   const std::vector<int>& nodes() const { return nodes_; }  ///< mesh-file numbers, ascending
   bool is_empty() const { return nodes_.empty(); }
   void clear() { nodes_.clear(); }
+  /// Drops those that a mesh of so many nodes does not have.
+  void keep_below(std::size_t count) {
+    std::erase_if(nodes_, [&](int node) { return static_cast<std::size_t>(node) >= count; });
+  }
 
   /// nodes: mesh-file numbers, ascending, each once.
   void take(const std::vector<int>& nodes, How how) {

@@ -16,8 +16,9 @@ void Notices::notify(std::string text, std::filesystem::path folder) {
   notice_age_ = 0;
 }
 
-void Notices::show_error(std::string text) {
-  need_letters(text);
+void Notices::show_error(std::string title, std::string text) {
+  need_letters(title + text);
+  failure_title_ = std::move(title);
   failure_ = std::move(text);
   notice_.clear();
 }
@@ -35,7 +36,7 @@ bool Notices::covers(float x, float y) const {
 BannerPress Notices::draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds) {
   rects_.clear();
   height_beside_ = 0;
-  const Banner failure{"Could not be opened", failure_, "Close", colours::danger};
+  const Banner failure{failure_title_, failure_, "Close", colours::danger};
   if (!failure_.empty() && draw_banner(rows, "failure", free, failure) == BannerPress::button) failure_.clear();
   const BannerPress pressed = banner ? draw_banner(rows, "banner", free, *banner) : BannerPress::none;
   if (!notice_.empty()) draw_notice(rows, free, seconds);

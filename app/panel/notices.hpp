@@ -23,8 +23,8 @@ class Notices {
  public:
   /// A notice, shown for some seconds. folder: that its button opens; empty: no button.
   void notify(std::string text, std::filesystem::path folder = {});
-  void show_error(std::string text);  ///< a failure, shown until closed
-  bool close();                       ///< closes the failure; true if one was open
+  void show_error(std::string title, std::string text);  ///< a failure, shown until closed
+  bool close();                                          ///< closes the failure; true if one was open
 
   /// Draws failure, banner and notice within the free area. Returns which of the banner's buttons was pressed. seconds:
   /// since the last frame.
@@ -44,7 +44,7 @@ class Notices {
   void draw_notice(Rows& rows, const Area& free, float seconds);
   static bool draw_wide_button(Rows& rows, const std::string& label, float room);
 
-  std::string failure_, notice_;
+  std::string failure_title_, failure_, notice_;
   float notice_age_ = 0;  ///< s
   float height_beside_ = 0;
   std::filesystem::path folder_;

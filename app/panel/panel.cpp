@@ -97,8 +97,10 @@ void Panel::update(const Frame& frame, float seconds) {
   measure_.update(frame);
   history_.add(frame, measure_.now());
   report_refusal(frame);
-  update_settings(frame);
-  update_regions(frame);
+  if (!timeline_ || !timeline_->shown) {  // settings are of the live body, to which commands apply
+    update_settings(frame);
+    update_regions(frame);
+  }
   state_banner_.update(frame, seconds);
   if (view_.fixed_range())
     colour_range_.fix(*view_.fixed_range());

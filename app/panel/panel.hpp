@@ -59,8 +59,8 @@ class Panel {
   void notify(std::string text, std::filesystem::path folder = {}) {
     notices_.notify(std::move(text), std::move(folder));
   }
-  /// Shown until closed: a file that could not be opened.
-  void show_error(std::string text) { notices_.show_error(std::move(text)); }
+  /// A failure, shown until closed.
+  void show_error(std::string title, std::string text) { notices_.show_error(std::move(title), std::move(text)); }
 
   /// What was found and chosen when the scene was opened; a section tells it until it is dismissed.
   void set_findings(std::vector<std::string> findings);

@@ -36,6 +36,14 @@ void draw_track(float place) {
     list.AddRectFilled(from, {filled, to.y}, colours::fill, rounding, ImDrawFlags_RoundCornersLeft);
 }
 
+/// Before a control that a number is typed into: ImGui drops commas, which would make 25 of "2,5".
+/// active: whether it takes letters.
+void read_comma_as_point(bool active) {
+  if (!active) return;
+  for (ImWchar& letter : ImGui::GetIO().InputQueueCharacters)
+    if (letter == ',') letter = '.';
+}
+
 std::string formatted(const char* format, double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, value);
@@ -148,9 +156,10 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   const ImGuiSliderFlags flags = range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
   double edited = value;
   ImGui::PushID(label.text.c_str());
+  const ImGuiID id = ImGui::GetID("##value");
+  read_comma_as_point(ImGui::GetActiveID() == id);
   bool changed =
       ImGui::SliderScalar("##value", ImGuiDataType_Double, &edited, &range.low, &range.high, range.format, flags);
-  const ImGuiID id = ImGui::GetID("##value");
   if (is_typing(id, ImGui::TempInputIsActive(id), changed, edited)) changed = false;
   ImGui::PopID();
   ImGui::PopStyleColor(3);
@@ -178,21 +187,36 @@ bool Rows::number(const Label& label, double& value, const SliderRange& range) {
   begin(label);
   const std::string name = "##" + label.text;
   double edited = value;
-  bool changed = ImGui::InputScalar(name.c_str(), ImGuiDataType_Double, &edited, nullptr, nullptr, range.format);
+  const ImGuiID id = ImGui::GetID(name.c_str());
+  read_comma_as_point(ImGui::GetActiveID() == id);
+  bool changed = ImGui::InputScalar(name.c_str(), ImGuiDataType_Double, &edited, nullptr, nullptr, range.format,
+                                    ImGuiInputTextFlags_CharsScientific);
   const bool active = ImGui::IsItemActive();
   explain(label);
-  if (is_typing(ImGui::GetID(name.c_str()), active, changed, edited) || !changed) return false;
+  if (is_typing(id, active, changed, edited) || !changed) return false;
   if (std::isnan(edited) || formatted(range.format, edited) == formatted(range.format, value)) return false;
   const double before = std::exchange(value, limited(label, edited, range));
   return value != before;
 }
 
-bool Rows::vector(const Label& label, Vec3& value, const char* format) {
+bool Rows::vector(const Label& label, Vec3& value, const SliderRange& range) {
   begin(label);
-  ImGui::InputScalarN(("##" + label.text).c_str(), ImGuiDataType_Double, value.data(), 3, nullptr, nullptr, format);
+  const std::string name = "##" + label.text;
+  Vec3 edited = value;
+  read_comma_as_point(active_vector_ == label.text);
+  if (ImGui::InputScalarN(name.c_str(), ImGuiDataType_Double, edited.data(), 3, nullptr, nullptr, range.format,
+                          ImGuiInputTextFlags_CharsScientific)) {
+    typed_vector_ = edited.array().isNaN().select(0.0, edited);
+    value = typed_vector_.cwiseMax(range.low).cwiseMin(range.high);
+  }
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  if (ImGui::IsItemActive())
+    active_vector_ = label.text;
+  else if (active_vector_ == label.text)
+    active_vector_.clear();
   explain({label.text, label.hint + "\n\nClick one to type it."});
-  if (!value.allFinite()) value = value.array().isFinite().select(value, 0.0);
+  if (done)
+    for (const double typed : typed_vector_) limited(label, typed, range);
   return done;
 }
 
@@ -254,7 +278,11 @@ bool Rows::close_choices() {
 }
 
 bool Rows::check(const Label& label, bool& value) {
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1);  // else an empty box hardly shows on a light background
+  ImGui::PushStyleColor(ImGuiCol_Border, colours::muted);
   const bool changed = ImGui::Checkbox(label.text.c_str(), &value);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
   explain(label);
   return changed;
 }

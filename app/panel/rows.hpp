@@ -36,8 +36,8 @@ class Rows {
   bool slider(const Label& label, double& value, const SliderRange& range);
   /// A number to type. True when it was changed: on Enter, Tab, or a click elsewhere.
   bool number(const Label& label, double& value, const SliderRange& range);
-  /// Three numbers to type. True when one was changed: on Enter, Tab, or a click elsewhere.
-  bool vector(const Label& label, Vec3& value, const char* format);
+  /// Three numbers to type, each in the range. True when one was changed: on Enter, Tab, or a click elsewhere.
+  bool vector(const Label& label, Vec3& value, const SliderRange& range);
   /// What became of a number typed outside its range, once; empty: nothing.
   std::string take_notice() { return std::exchange(notice_, {}); }
   /// A text to type, of at most so many bytes.
@@ -109,6 +109,8 @@ class Rows {
   float room_ = 0;  ///< leave_room()
   std::map<std::string, bool> sections_;
   std::optional<Typed> typed_;  ///< the number that is being typed
+  Vec3 typed_vector_ = Vec3::Zero();  ///< as last typed
+  std::string active_vector_;         ///< label of the one that takes letters; empty: none does
   std::string notice_;          ///< take_notice()
 };
 

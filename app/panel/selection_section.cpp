@@ -11,6 +11,7 @@ namespace heml::panel {
 namespace {
 
 constexpr std::size_t max_name = 40;  // bytes, of a region
+constexpr double max_force = 1e6;     // N, of a component that is typed
 
 float half_row() { return (ImGui::GetContentRegionAvail().x - em(0.4f)) / 2; }
 
@@ -108,7 +109,7 @@ void SelectionSection::draw_loads(Rows& rows, const Conditions& conditions, Pane
   rows.vector({"Force",
                "x, y, z in N, in all: the selected nodes share it equally. The arrow in the image shows it: drag its "
                "tip to set direction and size, and to load; Shift keeps to an axis."},
-              force_, "%.3g");
+              force_, {-max_force, max_force, "%.3g"});
   const float half = half_row();
   if (rows.button({"Load", "Applies the force to the selected nodes from now on, in place of a force on the same "
                            "nodes. Saved with the scene."},

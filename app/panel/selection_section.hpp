@@ -19,6 +19,11 @@ class SelectionSection {
   NodeSelection& inside() { return inside_; }  ///< nodes below the surface that go with it into a region
   const Vec3& force() const { return force_; }  ///< N, to apply
   void set_force(const Vec3& force) { force_ = force; }
+  /// Drops nodes that a mesh of so many nodes does not have.
+  void keep_below(std::size_t mesh_nodes) {
+    selection_.keep_below(mesh_nodes);
+    inside_.keep_below(mesh_nodes);
+  }
   void forget() {
     selection_.clear();
     inside_.clear();

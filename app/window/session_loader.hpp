@@ -48,6 +48,7 @@ class SessionLoader {
   bool is_ready() const;  ///< take() has an outcome
   /// Progress of a replay before resuming, %; none for a file.
   std::optional<int> progress() const;
+  bool is_replaying() const { return progress() && !cancelled_; }  ///< before resuming, to an outcome
   void cancel() { cancelled_ = true; }
 
   /// The outcome, once: a session, or the error message; nothing before, or after cancel().

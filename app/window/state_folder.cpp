@@ -64,7 +64,9 @@ std::vector<ScenesViews> read_all_views() {
 /// Empty: it has none, or one that no line can hold.
 std::string whole_path(const fs::path& file) {
   std::error_code failed;
-  const std::string whole = file.empty() ? std::string() : fs::weakly_canonical(fs::absolute(file), failed).string();
+  const fs::path absolute = fs::absolute(file, failed);
+  if (file.empty() || failed) return {};
+  const std::string whole = fs::weakly_canonical(absolute, failed).string();
   return failed || whole.find('\n') != std::string::npos ? std::string() : whole;
 }
 

@@ -91,9 +91,15 @@ fs::path UnsavedWork::file() {
 }
 
 void UnsavedWork::done(const Command& command) {
+  if (!changed_ && (std::holds_alternative<Reset>(command) || std::holds_alternative<Release>(command))) return;
   if (!unwritten_) next_ = Clock::now() + save_interval;
   changed_ = unwritten_ = true;
   by_tools_ = by_tools_ || !is_of_a_scene(command);
+}
+
+void UnsavedWork::recording_ended() {
+  next_ = Clock::now();
+  changed_ = by_tools_ = unwritten_ = true;
 }
 
 void UnsavedWork::saved() {

@@ -23,7 +23,8 @@ class UnsavedWork {
   UnsavedWork(const UnsavedWork&) = delete;
   UnsavedWork& operator=(const UnsavedWork&) = delete;
 
-  void done(const Command& command);  ///< by hand, now
+  void done(const Command& command);  ///< by hand, now; to reset or let go what nothing was done to is no work
+  void recording_ended();             ///< early: what was done by hand is in no complete recording
   void saved();                       ///< in a recording, or not wanted: removes the file
   void scene_saved();                 ///< in a scene file, which holds settings and tables but not what tools did
   /// Takes over a file of left_behind(), whose work is now that of this program.

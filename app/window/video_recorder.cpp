@@ -96,7 +96,7 @@ void VideoRecorder::run() {
     }
     outcome = make_video();
   } catch (const std::exception& error) {
-    outcome = error.what();
+    outcome = fmt::format("The film ended early: {}", error.what());
   }
   std::lock_guard lock(mutex_);
   outcome_ = outcome;
@@ -107,14 +107,18 @@ void VideoRecorder::write(const QueuedFrame& frame) {
   for (long k = frame.number - frame.repeats; k < frame.number; ++k) {
     std::error_code failed;
     fs::create_hard_link(file(frame.number - frame.repeats - 1), file(k), failed);
-    if (failed) fs::copy_file(file(frame.number - frame.repeats - 1), file(k));
+    if (failed) fs::copy_file(file(frame.number - frame.repeats - 1), file(k), failed);
+    if (failed)
+      throw InputError(file(k).string(), "", "cannot be written: " + failed.message(),
+                       "check the folder, its permissions and the space left");
   }
   render::write_png(file(frame.number), frame.image);
 }
 
 std::string VideoRecorder::make_video() {
   if (next_ == 0) {
-    fs::remove(folder_);
+    std::error_code failed;
+    fs::remove(folder_, failed);
     return "Nothing was recorded: simulated time did not advance.";
   }
   const std::string frames = fmt::format("{} frames in {}", next_, folder_.string());

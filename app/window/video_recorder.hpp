@@ -35,6 +35,7 @@ class VideoRecorder {
   bool is_finishing() const { return finishing_; }
   long frame_count() const { return next_; }
   render::Size size() const { return size_; }
+  const std::filesystem::path& folder() const { return folder_; }  ///< of the frames; the video is beside it
   bool is_done() const;  ///< take_outcome() has a message
   /// A message about the finished or failed recording, once.
   std::optional<std::string> take_outcome();

@@ -9,6 +9,7 @@
 namespace heml::window {
 namespace {
 constexpr float passed_panel_opacity = 0.2f;
+constexpr float max_shadow_age = 1.0f / 15;  // s
 
 std::string window_title(const Scene& scene) {
   const std::string& title = !scene.title.empty() ? scene.title : scene.name;
@@ -35,6 +36,7 @@ void Viewer::adopt(OpenScene opened) {
     playback_.resumed_at(*opened.resumed, opened.session->latest());
   else
     playback_ = TimelinePlayback();
+  const std::size_t bodies = live_ ? panel::body_count(*live_) : 0;
   open_ = std::move(opened);
   frame_ = live_ = &open_.session->latest();
   if (!open_.resumed) {
@@ -45,15 +47,19 @@ void Viewer::adopt(OpenScene opened) {
   arrow_drag_.cancel();
   const panel::Measure measure = open_.resumed && panel_ ? panel_->measure() : panel::Measure();
   const auto tool = open_.resumed && panel_ ? std::optional(panel_->tool()) : std::nullopt;
+  auto selecting = open_.resumed && panel_ ? panel_->selecting() : panel::SelectionSection();
+  selecting.keep_below(frame_->conditions->mesh_nodes);
   panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names(),
                  open_.session->regions());
   panel_->measure() = measure;
   panel_->set_preferences(preferences_);
+  panel_->selecting() = std::move(selecting);
   if (tool) panel_->set_tool(*tool);
   panel_->set_findings(open_.findings);
   show_mesh();
   next_event_ = 0;
   update_title();
+  if (open_.resumed && panel::body_count(*frame_) > bodies) fit();
   if (open_.resumed) return;
   controller_.set_saved_views(saved_views(open_.scene.file));
   controller_.set_orthographic(open_.scene.view.orthographic);
@@ -78,9 +84,9 @@ void Viewer::fit() {
 bool Viewer::wants_drawing() const {
   return window_.visible() &&
          (frames_wanted_ > 0 || input_.needs_picture() || open_.session->frame_waiting() || panel_->animating() ||
-          playback_.playing() ||
-          session_loader_.is_ready() || session_loader_.progress() != shown_progress_ || library_.is_ready() ||
-          unsaved_.is_due() || (video_recorder_ && video_recorder_->is_done()));
+          playback_.playing() || (session_loader_.is_ready() && !panel_->asks()) ||
+          session_loader_.progress() != shown_progress_ || library_.is_ready() || unsaved_.is_due() ||
+          (video_recorder_ && video_recorder_->is_done()));
 }
 
 bool Viewer::is_busy() const {
@@ -107,6 +113,7 @@ void Viewer::draw() {
   const Frame& live = open_.session->latest();
   if (unsaved_.is_due()) unsaved_.save(open_.session->until(live));
   live_ = &live;
+  if (open_.recording && !live.recording_problem.empty()) end_recording();
   frame_ = &playback_.select_frame(live, seconds, *open_.session);
   follow_script();
   panel::Timeline timeline = playback_.timeline(open_.scene, live);
@@ -139,7 +146,8 @@ void Viewer::draw() {
     drawing.stroke.scissors = mouse_tool_.scissors_over(*hit, panel_->tool());
   if (!drawing.stroke.blade && !drawing.stroke.scissors && !drawing.stroke.electrode)
     drawing.stroke = panel::scripted_stroke(open_.scene.events, frame_->tick - 1, frame_->pace.rate);
-  drawing.old_shadows = drawn_ % 2 == 1 && !is_paused();  // soft as they are, nobody sees it
+  // Soft as they are, nobody sees old shadows, unless they are of a body that has gone far since.
+  drawing.old_shadows = drawn_ % 2 == 1 && !is_paused() && seconds < max_shadow_age;
   bodies_.draw(*frame_, controller_, drawing);
   draw_interface(seconds);
   add_video_frame();
@@ -258,12 +266,14 @@ void Viewer::follow_script() {
     panel_->sync(events[next_event_].command);
 }
 
+/// A question is about the work on the body that is there: it is answered before another body comes.
 void Viewer::take_opened() {
+  if (panel_->asks()) return;
   auto result = session_loader_.take();
   if (!result) return;
   if (auto* problem = std::get_if<std::string>(&*result)) {
     restores_ = false;
-    return panel_->show_error(*problem);
+    return panel_->show_error("Could not be opened", *problem);
   }
   OpenScene& opened = std::get<OpenScene>(*result);
   const bool runs = opened.resumed && run_after_resume_;
@@ -290,21 +300,40 @@ void Viewer::cancel_replay() {
     panel_->notify("Not restored: what was done last time is offered at the next start.");
 }
 
+/// An edit ends what is being replayed, since the body that comes of it would be without the edit.
+void Viewer::cancel_replay_for_edit() {
+  if (!session_loader_.is_replaying() || restores_) return;
+  cancel_replay();
+  panel_->notify("The replay has ended, since the body was changed: compare, or resume, again.");
+}
+
+/// Where the recording cannot go on, what was done is in no complete one: unsaved work.
+void Viewer::end_recording() {
+  panel_->show_error("The recording ended early", live_->recording_problem +
+                                                      "\nWhat was done since the start is unsaved work now: it is "
+                                                      "asked about before the window closes.");
+  open_.recording.reset();
+  unsaved_.recording_ended();
+}
+
 /// What is done to a body that is about to be replaced would be lost.
 bool Viewer::is_being_replaced() const {
   return session_loader_.is_busy() && (restores_ || !session_loader_.progress());
 }
 
 std::string Viewer::why_busy() const {
+  if (session_loader_.is_replaying() && !restores_) return "The session is being replayed. Esc ends that.";
   return restores_ ? "What was done last time is being restored. Esc ends that." : "Another file is being opened.";
 }
 
 void Viewer::post(std::vector<Command>& commands) {
   const auto lets_go = [](const Command& command) { return std::holds_alternative<Release>(command); };
-  if (is_being_replaced() && !std::all_of(commands.begin(), commands.end(), lets_go)) {
+  const bool edits = !std::all_of(commands.begin(), commands.end(), lets_go);
+  if (edits && is_being_replaced()) {
     panel_->notify(why_busy());
     return commands.clear();
   }
+  if (edits) cancel_replay_for_edit();
   const auto does_nothing = [&](const Command& command) {
     const auto* step = std::get_if<StepHistory>(&command);
     if (!step) return false;

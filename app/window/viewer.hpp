@@ -93,6 +93,8 @@ class Viewer final : public WindowEvents {
   void carry_out(panel::Request request);
   void post(std::vector<Command>& commands);
   void cancel_replay();
+  void cancel_replay_for_edit();
+  void end_recording();
   bool is_being_replaced() const;
   std::string why_busy() const;
   void ask_about_work(const std::string& title, std::function<void()> then);

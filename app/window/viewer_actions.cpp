@@ -19,7 +19,7 @@ void Viewer::release_tool() {
 void Viewer::carry_out(const panel::PanelActions& actions) {
   std::vector<Command> commands = actions.commands;
   if (!commands.empty()) {  // they apply to the live body
-    if (session_loader_.progress() && !restores_) cancel_replay();
+    cancel_replay_for_edit();
     playback_.end(*open_.session);
   }
   // Releases hands before a reset or an undo, which they would pull on, and grasps that an undo restores: no button
@@ -164,7 +164,7 @@ void Viewer::seek(panel::Request where) {
 }
 
 void Viewer::go_live() {
-  if (session_loader_.progress()) return cancel_replay();
+  if (session_loader_.is_replaying()) return cancel_replay();
   playback_.end(*open_.session);
 }
 

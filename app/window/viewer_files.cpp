@@ -35,23 +35,24 @@ bool Viewer::numbers_refined_mesh() const {
           live_->conditions->loads != opened_conditions_->loads);
 }
 
-/// Writes the scene as opened, with the current settings. Tool actions are left to recordings.
+/// Writes the scene as opened, with the settings and tables of now, also while a past frame is shown. Tool actions are
+/// left to recordings.
 void Viewer::save_scene() {
   try {
     const auto path = unused_path(as_opened_.name, ".json");
     Scene scene = as_opened_;
     if (numbers_refined_mesh()) {
-      const auto mesh_file = unused_path(as_opened_.name + "-refined", ".vtu");
+      const auto mesh_file = unused_path(as_opened_.name, ".vtu", "-refined");
       AdaptedScene refined = refined_scene(as_opened_, mesh_file);
       write_tet_mesh(mesh_file, refined.mesh);
       scene = std::move(refined.scene);
     }
     panel_->write_into(scene);
     scene.tables.clear();
-    for (const TableState& state : tools_of<TableState>(frame_->tools)) scene.tables.push_back(state.table);
+    for (const TableState& state : tools_of<TableState>(live_->tools)) scene.tables.push_back(state.table);
     write_conditions(scene);
     write_regions(scene);
-    write_file(path, scene_text(scene, std::filesystem::current_path()));
+    write_file(path, scene_text(scene, path.parent_path()));
     unsaved_.scene_saved();
     panel_->mesh().set_kept(path);
     notify_saved("Saved " + path.string(), path.parent_path());
@@ -91,7 +92,7 @@ void Viewer::write_regions(Scene& scene) const {
 
 void Viewer::save_measured() {
   try {
-    const auto path = unused_path(open_.scene.name + "-measured", ".csv");
+    const auto path = unused_path(open_.scene.name, ".csv", "-measured");
     write_file(path, panel_->measure().csv());
     notify_saved("Saved " + path.string(), path.parent_path());
   } catch (const InputError& error) {
@@ -115,8 +116,10 @@ void Viewer::toggle_recording() {
 void Viewer::add_video_frame() {
   if (!video_recorder_) return panel_->set_filmed_frames(std::nullopt);
   if (const auto outcome = video_recorder_->take_outcome()) {
+    const std::filesystem::path folder = video_recorder_->folder().parent_path();
     video_recorder_.reset();
-    return notify_saved(*outcome, std::filesystem::current_path());
+    update_title();
+    return notify_saved(*outcome, folder);
   }
   panel_->set_filmed_frames(video_recorder_->is_finishing() ? std::nullopt
                                                             : std::optional(video_recorder_->frame_count()));

@@ -25,10 +25,14 @@ std::string time_of(const std::filesystem::path& file) {
 }  // namespace
 
 void Viewer::ask_to_quit() {
-  ask_about_work("Save what was done before quitting?", [this] { quits_ = true; });
+  ask_about_work("Save what was done before quitting?", [this] {
+    unsaved_.saved();
+    quits_ = true;
+  });
 }
 
-/// Calls `then` once unsaved work is saved or not wanted; not if the question is cancelled.
+/// Calls `then` once unsaved work is saved or not wanted; not if the question is cancelled. Unwanted work stays until
+/// the program ends or another body is there: opening it may fail.
 void Viewer::ask_about_work(const std::string& title, std::function<void()> then) {
   changed();
   if (!unsaved_.any()) return then();
@@ -57,7 +61,7 @@ void Viewer::answer(std::size_t which) {
     return;
   }
   if (which > discard || (which == save && !save_work())) return;
-  unsaved_.saved();
+  if (which == save) unsaved_.saved();
   then();
 }
 
@@ -70,7 +74,7 @@ bool Viewer::save_work() {
     notify_saved("Saved " + path.string(), path.parent_path());
     return true;
   } catch (const InputError& error) {
-    panel_->show_error(error.what());
+    panel_->show_error("Could not be saved", error.what());
     return false;
   }
 }
@@ -83,7 +87,7 @@ void Viewer::restore_work(const std::filesystem::path& file) {
     session_loader_.resume(read_scene(file), std::nullopt);
     restores_ = true;
   } catch (const InputError& error) {
-    panel_->show_error(error.what());
+    panel_->show_error("Could not be opened", error.what());
   }
 }
 

@@ -52,6 +52,62 @@ TEST_CASE("gravity is typed by components") {
   CHECK(std::get<SetGravity>(commands[0]).gravity.isApprox(Vec3(2.5, -9.81, 0)));
 }
 
+TEST_CASE("numbers are typed with a decimal comma and an exponent") {
+  const auto typed = [](const char* text) {
+    Driver driver;
+    driver.choose("Direction", "x, y, z");
+    driver.find("Gravity x, y, z", 130);
+    driver.click();
+    ImGui::GetIO().AddInputCharactersUTF8(text);
+    driver.draw();
+    driver.away();
+    const auto commands = driver.click().commands;
+    REQUIRE(commands.size() == 1);
+    return std::get<SetGravity>(commands[0]).gravity.x();
+  };
+  CHECK(typed("2,5") == doctest::Approx(2.5));
+  CHECK(typed("-2,5e-1") == doctest::Approx(-0.25));
+  CHECK(typed("5000") == doctest::Approx(1000));  // the limit
+  CHECK(typed("-1e999") == doctest::Approx(-1000));
+}
+
+TEST_CASE("a slider takes a typed decimal comma") {
+  Driver driver;
+  driver.find("Damping");
+  ImGui::GetIO().KeyCtrl = true;
+  ImGui::GetIO().KeyMods = ImGuiKeyModFlags_Ctrl;
+  driver.click();
+  ImGui::GetIO().KeyCtrl = false;
+  ImGui::GetIO().KeyMods = 0;
+  ImGui::GetIO().AddInputCharactersUTF8("2,5");
+  driver.draw();
+  driver.away();
+  const auto commands = driver.click().commands;
+  REQUIRE(commands.size() == 1);
+  CHECK(std::get<SetDamping>(commands[0]).damping == doctest::Approx(2.5));
+}
+
+TEST_CASE("settings stay those of the live body while a past frame is shown") {
+  Driver driver;
+  panel::Timeline timeline;
+  timeline.rate = timeline.live = timeline.end = 100;
+  timeline.shown = 50;
+  UndoList past;
+  past.steps = 1;
+  past.settings = {SetDamping{7}};
+  driver.frame.undo_list = std::make_shared<UndoList>(past);
+  driver.panel.set_timeline(timeline);
+  driver.draw();
+  Scene saved = small_scene();
+  driver.panel.write_into(saved);
+  CHECK(saved.solver.damping == small_scene().solver.damping);
+  timeline.shown.reset();
+  driver.panel.set_timeline(timeline);
+  driver.draw();
+  driver.panel.write_into(saved);
+  CHECK(saved.solver.damping == 7);
+}
+
 TEST_CASE("the arrow of gravity is offered where gravity is typed") {
   Driver driver;
   CHECK_FALSE(driver.panel.motion().has_arrow());

@@ -22,4 +22,13 @@ TEST_CASE("a selection is replaced, added to and taken from") {
   CHECK(selection.is_empty());
 }
 
+TEST_CASE("a selection drops the nodes that a smaller mesh does not have") {
+  NodeSelection selection;
+  selection.take({1, 5, 7, 8}, How::replace);
+  selection.keep_below(7);
+  CHECK(selection.nodes() == std::vector{1, 5});
+  selection.keep_below(0);
+  CHECK(selection.is_empty());
+}
+
 }  // namespace heml::node_selection_test

@@ -463,7 +463,7 @@ TEST_CASE("what was found on opening is a section until it is dismissed") {
 
 TEST_CASE("the error of a file that cannot be opened stays until Esc") {
   Driver driver;
-  driver.panel.show_error("liver.obj: line 3: no number");
+  driver.panel.show_error("Could not be opened", "liver.obj: line 3: no number");
   for (int k = 0; k < 300; ++k) driver.draw();
   CHECK(driver.panel.covers(640, 30));
   after(driver, Action::release);

@@ -95,7 +95,9 @@ TEST_CASE("a cancelled resume leaves no session and no file") {
   loader.resume(old.session->until(past), folder.path / "out.jsonl");
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   CHECK(*loader.progress() < 100);
+  CHECK(loader.is_replaying());
   loader.cancel();
+  CHECK_FALSE(loader.is_replaying());
   for (int k = 0; k < 500 && loader.is_busy(); ++k) {
     CHECK_FALSE(loader.take());
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -57,6 +57,19 @@ TEST_CASE("a mesh whose section was folded away is remembered by its file alone"
   CHECK(is_mesh_folded("mesh0"));
 }
 
+TEST_CASE("nothing is kept of a scene whose working directory is gone") {
+  const StateFolder state;
+  const fs::path before = fs::current_path(), gone = fs::temp_directory_path() / "heml-gone";
+  fs::create_directories(gone);
+  fs::current_path(gone);
+  fs::remove(gone);
+  remember_views("a.json", views_of(1));
+  remember_mesh_folded("a.mesh", true);
+  CHECK(saved_views("a.json") == Views{});
+  CHECK_FALSE(is_mesh_folded("a.mesh"));
+  fs::current_path(before);
+}
+
 TEST_CASE("views of a hundred scenes are kept, those written last") {
   const StateFolder state;
   for (int k = 0; k <= 100; ++k) remember_views("scene" + std::to_string(k), views_of(1));

@@ -50,6 +50,28 @@ TEST_CASE("settings are saved by a scene file, what tools did by recordings alon
   CHECK_FALSE(work.any());
 }
 
+TEST_CASE("a reset or a release alone is no work") {
+  const StateFolder state;
+  UnsavedWork work;
+  work.done(Reset{});
+  work.done(Release{});
+  CHECK_FALSE(work.any());
+  work.done(Grasp{});
+  work.scene_saved();
+  work.done(Reset{});
+  CHECK(work.any());
+}
+
+TEST_CASE("what is in a recording that ended early is unsaved, and written at once") {
+  const StateFolder state;
+  UnsavedWork work;
+  work.recording_ended();
+  CHECK(work.any());
+  CHECK(work.is_due());
+  work.scene_saved();
+  CHECK(work.any());
+}
+
 TEST_CASE("work is written to a file that goes when it is saved") {
   const StateFolder state;
   UnsavedWork work;

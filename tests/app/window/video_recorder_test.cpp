@@ -109,6 +109,18 @@ TEST_CASE("the frames are encoded with the next codec if the first fails") {
   CHECK(words.find("/frame_%05d.png") != std::string::npos);
 }
 
+TEST_CASE("a film whose folder is gone says which file could not be written") {
+  const Workplace workplace;
+  VideoRecorder recorder("body", {8, 6});
+  CHECK(recorder.folder().parent_path() == workplace.path);
+  fs::remove(recorder.folder());
+  recorder.add_frame(grey(1), 0);
+  const std::string outcome = outcome_of(recorder);
+  CHECK(outcome.find("The film ended early") != std::string::npos);
+  CHECK(outcome.find("frame_00000.png") != std::string::npos);
+  CHECK(outcome.find("filesystem error") == std::string::npos);
+}
+
 TEST_CASE("a recording without frames leaves no file and an abandoned one has all frames") {
   const Workplace workplace;
   {
