@@ -9,6 +9,7 @@
 #include <heml/base/log.hpp>
 #include <heml/base/write_file.hpp>
 #include <heml/scenario/input_files.hpp>
+#include <set>
 #include <studies/scene_fit.hpp>
 
 namespace heml {
@@ -48,7 +49,12 @@ void print_fit(const SceneFit& fit) {
 int fit(const FitArguments& arguments) {
   if (arguments.parameters.empty()) throw UsageError("fit: give at least one --parameter PATH");
   std::vector<FitStart> starts;
-  for (const std::string& given : arguments.parameters) starts.push_back(start_of(given));
+  std::set<std::string> paths;
+  for (const std::string& given : arguments.parameters) {
+    starts.push_back(start_of(given));
+    if (!paths.insert(starts.back().path).second)
+      throw UsageError(fmt::format("--parameter {}: is given twice", starts.back().path));
+  }
   const Scene scene = read_scene(arguments.scene);
   const std::filesystem::path out = out_of(arguments, scene);
   std::vector<std::filesystem::path> inputs = input_files(scene);

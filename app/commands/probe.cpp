@@ -49,6 +49,7 @@ StateTable read_table(const std::filesystem::path& path) {
   if (!in) throw InputError(path.string(), "", "cannot be read", "a CSV file with the header " + header(false));
   std::string line;
   std::getline(in, line);
+  if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark, as spreadsheets write it
   std::string names;
   for (const std::string& cell : split(line)) names += (names.empty() ? "" : ",") + cell;
   StateTable table;
@@ -91,6 +92,9 @@ int probe(const ProbeArguments& arguments) {
   if (!find_law(material.law)->is_continuum)
     throw UsageError(fmt::format("{}: '{}' has no energy of the deformation gradient to probe: it has edge forces only",
                                  arguments.material.string(), material.law));
+  if (material.active_stress > 0 || material.has_internal_state())
+    warn("{}: the law alone is evaluated, without active stress, viscosity, relaxation and plasticity",
+         arguments.material.string());
   check_output_file({arguments.material, arguments.gradients}, arguments.out);
   const StateTable table = read_table(arguments.gradients);
   std::string names = "W";

@@ -241,7 +241,9 @@ void bind_state(nb::class_<LiveWorld>& world) {
       .def("forces", &vectors<NodeVector::force>, "out"_a = nb::none(),
            "(V, 3) float64, N: internal forces, gravity, loads and tools, not supports; a copy, or `out`.")
       .def("volume_ratios", method(volume_ratios), "(T,) float64: J = det F of the elements of `tets`.")
-      .def("stresses", method(stresses), "(T, 3, 3) float64, Pa: Cauchy stress of the elements of `tets`.")
+      .def("stresses", method(stresses),
+           "(T, 3, 3) float64, Pa: Cauchy stress of the elements of `tets`: of law and active stress, without "
+           "the parts of viscosity and relaxation.")
       .def("energies", method(energies), "dict: kinetic, elastic, potential (of gravity, 0 at the rest shape), J.")
       .def("hash", method([](World& w) { return fmt::format("{:016x}", w.state_hash()); }),
            "Hash of positions and velocities, bit for bit, as recordings hold it: 16 hexadecimal digits.")

@@ -60,7 +60,8 @@ int main(int argc, char** argv) try {
     return arguments.size() == 1 || std::find(arguments.begin() + 1, arguments.end(), name) != arguments.end();
   };
   if (wanted("kidney")) make_mesh(arguments[0], make::mesh_of(make::kidney("kidney", 0.00575)));
-  if (wanted("kidney_coarse")) make_mesh(arguments[0], make::mesh_of(make::kidney("kidney_coarse", 0.010)));
+  if (arguments.size() > 1 && wanted("kidney_coarse"))  // the start of kidney_adapted, which is shipped in its place
+    make_mesh(arguments[0], make::mesh_of(make::kidney("kidney_coarse", 0.010)));
   if (wanted("uterus")) make_mesh(arguments[0], make::mesh_of(make::uterus()));
   if (wanted("liver")) make_mesh(arguments[0], make::mesh_of(make::liver()));
   if (wanted("irregular_cube")) make_mesh(arguments[0], make::irregular_cube());

@@ -58,6 +58,9 @@ class Fit(unittest.TestCase):
     def test_wrong_use_and_bad_tables_say_what_to_do(self):
         self.assertEqual(self.fit().returncode, 2)
         self.assertEqual(self.fit("--parameter", "materials[0].young=soft").returncode, 2)
+        done = self.fit("--parameter", "materials[0].young", "--parameter", "materials[0].young=2e4")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("materials[0].young: is given twice", done.stderr)
         done = self.fit("--parameter", "materials[0].colour")
         self.assertEqual(done.returncode, 3)
         self.assertIn("materials[0].colour", done.stderr)

@@ -56,8 +56,8 @@ std::vector<int> without_corners(std::vector<int> nodes, const TetMesh& mesh) {
   return nodes;
 }
 
-/// Leaves out nodes of no tetrahedron, and numbers the others anew.
-void leave_out(const std::vector<int>& nodes, TetMesh& mesh) {
+/// Leaves out nodes of no tetrahedron, and numbers the others anew; tells of numbers that are not those of the file.
+void leave_out(const std::filesystem::path& path, const std::vector<int>& nodes, TetMesh& mesh) {
   std::vector<bool> dropped(mesh.nodes.size(), false);
   for (const int n : nodes) dropped[static_cast<std::size_t>(n)] = true;
   std::vector<int> number(mesh.nodes.size(), -1);
@@ -69,6 +69,10 @@ void leave_out(const std::vector<int>& nodes, TetMesh& mesh) {
   }
   for (Tet& tet : mesh.tets)
     for (int& n : tet) n = number[static_cast<std::size_t>(n)];
+  if (const auto first = std::find(dropped.begin(), dropped.end(), true);
+      std::find(first, dropped.end(), false) != dropped.end())
+    warn("{}: from node {} on, nodes have other numbers than in the file: those that are left, from 0 in its order",
+         path.string(), first - dropped.begin());
   mesh.nodes = std::move(kept);
 }
 
@@ -130,7 +134,7 @@ TetMesh read_tet_mesh(const std::filesystem::path& path, MidEdges* midedges) {
     const std::vector<int> middles = unused_middles(path, read);
     unused.insert(unused.end(), middles.begin(), middles.end());
   }
-  if (!unused.empty()) leave_out(unused, read.mesh);
+  if (!unused.empty()) leave_out(path, unused, read.mesh);
   return std::move(read.mesh);
 }
 

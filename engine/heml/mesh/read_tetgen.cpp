@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <heml/mesh/readers.hpp>
+#include <limits>
 
 namespace heml {
 namespace {
@@ -31,8 +32,9 @@ NodeNumbers read_nodes(Scanner& in, std::vector<Vec3>& nodes) {
 // TetGen writes region attributes as reals.
 int read_region(Scanner& in) {
   const double region = in.number("a region attribute");
-  if (region != std::nearbyint(region) || std::abs(region) > 2e9)
-    in.fail(fmt::format("a region attribute is {}", region), "an integer");
+  if (region != std::nearbyint(region) || region < std::numeric_limits<int>::min() ||
+      region > std::numeric_limits<int>::max())
+    in.fail(fmt::format("a region attribute is {}", region), "an integer of 32 bits");
   return static_cast<int>(region);
 }
 

@@ -82,6 +82,22 @@ Outcome play(const std::vector<Landing>& landings, World& world, Player& player,
   return outcome;
 }
 
+/// What the numbers of a run do not show by themselves.
+void warn_of_silent_differences(const Scene& scene, const World& world) {
+  const SolverSettings& solver = scene.solver;
+  if (const SolverStats stats = world.solver_stats(); solver.step && !solver.budget && stats.damped_steps > 0)
+    warn(
+        "{} of {} steps did not converge by {}; backward Euler took them, which damps (a smaller solver.step or a "
+        "larger "
+        "solver.tolerance may spare it)",
+        stats.damped_steps, world.steps(),
+        solver.integrator == Integrator::automatic ? "their method" : integrator_name(solver.integrator));
+  if (!solver.is_static()) return;
+  const auto later = std::count_if(scene.events.begin(), scene.events.end(), [](const Event& e) { return e.tick > 0; });
+  if (later > 0)
+    warn("{} of {} events are left out: a static solve plays those at step 0 alone", later, scene.events.size());
+}
+
 }  // namespace
 
 SolveResult solve(const Scene& scene, const fs::path& out, const std::function<void(double)>& progress) {
@@ -114,6 +130,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
     if (is_last || reached) write_state(out, landing.stem, *world, is_last || scene.output_positions, scene.output_vtu);
   };
   const Outcome outcome = play(landings, *world, player, observers);
+  warn_of_silent_differences(scene, *world);
   trace.write(out);
   write_report(out / "report.json", *world, outcome.facts);
   if (outcome.refused) {

@@ -118,6 +118,16 @@ TEST_CASE("reads TetGen attributes after the first as fields without names of th
   CHECK(values(mesh, "attribute2", 1) == Values{-1, std::numeric_limits<double>::infinity()});
 }
 
+TEST_CASE("reads every integer of 32 bits as a TetGen region, and refuses what is none") {
+  const auto with_regions = [](const std::string& one, const std::string& other) {
+    const std::string text = replaced(replaced(samples::ele, " 7", " " + one), "-3.0", other);
+    return read_tetgen("a.node", samples::node, "a.ele", text).mesh.regions;
+  };
+  CHECK(with_regions("2147483647", "-2147483648") == std::vector<int>{2147483647, -2147483647 - 1});
+  for (const char* region : {"2147483648", "-2147483649", "1.5", "nan"})
+    CHECK(says(refusal([&] { with_regions(region, "1"); }), {"a.ele: line 2"}));
+}
+
 TEST_CASE("refuses broken fields by line") {
   const auto gmsh = [](const std::string& from, const std::string& to) {
     return refusal([&] { read_gmsh("a.msh", replaced(samples::gmsh_2_data, from, to)); });
