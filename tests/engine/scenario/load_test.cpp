@@ -84,6 +84,7 @@ TEST_CASE("reads initial positions of every node, in any order") {
   };
   const auto message = [&](const std::string& text) { return refusal([&] { load(text); }); };
   const std::vector<Vec3> positions = load("node,x,y,z\r\n" + lines + "\n");
+  CHECK(load("\xEF\xBB\xBFnode,x,y,z\n" + lines) == positions);
   REQUIRE(positions.size() == 12);
   for (int node = 0; node < 12; ++node) CHECK(positions[node] == Vec3(0.5, node, -1e-3));
   CHECK(says(message("node,x,y\n"), "start.csv: line 1: is 'node,x,y' (must be the header node,x,y,z)"));

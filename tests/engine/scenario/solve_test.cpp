@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <engine/mesh/files.hpp>
 #include <engine/scenario/samples.hpp>
 #include <fstream>
+#include <heml/base/warning_collector.hpp>
 #include <heml/scenario/positions_csv.hpp>
 #include <heml/scenario/solve.hpp>
 #include <heml/scenario/text_file.hpp>
@@ -213,6 +215,57 @@ TEST_CASE("runs a scene by each implicit method") {
     CHECK(report["iterations"].get<int>() >= 5);
     CHECK(report["potential_energy"].get<double>() < 0);
   }
+}
+
+TEST_CASE("a static scene in float ends at the tolerance of float") {
+  const TemporaryFolder folder;
+  Json scene = Json::parse(R"({"schema_version": 1,
+    "mesh": {"box": {"size": [0.1, 0.04, 0.04], "cells": [4, 2, 2]}},
+    "materials": [{"law": "mooney_rivlin", "K1": 1000, "K2": 300, "kappa": 2e5}],
+    "boundary": [{"box": [[-1, -1, -1], [1e-9, 1, 1]], "fix": true}], "gravity": [0, -9.81, 0],
+    "loads": [{"box": [[0.0999, -1, -1], [1, 1, 1]], "traction": [5, -10, 0]}],
+    "solver": {"integrator": "static", "element": "p2", "precision": "float"}})");
+  for (const double traction : {-10.0, -1.0, -0.1}) {
+    scene["loads"][0]["traction"][1] = traction;
+    CHECK_FALSE(solve(parse_scene(scene.dump(), "box.json"), folder / "").halt);
+    CHECK(report_in(folder)["converged"] == true);
+    CHECK(report_in(folder)["residual"].get<double>() <= 1e-4);
+  }
+}
+
+TEST_CASE("tells of events that a static scene leaves out, and of a force on nodes of no element") {
+  const TemporaryFolder folder;
+  folder.file("loose.mesh",
+              "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n5 5 5 0\n"
+              "Tetrahedra\n1\n1 2 3 4 0\nEnd\n");
+  const Json scene = Json::parse(R"({"schema_version": 1, "mesh": {"file": "loose.mesh"},
+    "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3}],
+    "boundary": [{"nodes": [0, 1, 2], "fix": true}], "loads": [{"nodes": [3, 4], "force": [0, 0, 1]}],
+    "solver": {"integrator": "static"},
+    "events": [{"step": 0, "gravity": [0, 0, -1]}, {"step": 3, "gravity": [0, 0, 0]}]})");
+  const WarningCollector warnings;
+  CHECK_FALSE(solve(parse_scene(scene.dump(), (folder / "scene.json").string()), folder / "out").halt);
+  const auto tells = [&](const std::string& words) {
+    return std::any_of(warnings.texts().begin(), warnings.texts().end(),
+                       [&](const std::string& text) { return text.find(words) != std::string::npos; });
+  };
+  CHECK(tells("1 of 2 events are left out"));
+  CHECK(tells("loads[0]: 1 of its 2 nodes belong to no element"));
+}
+
+TEST_CASE("tells of given steps that backward Euler takes where another method's rounding is above the tolerance") {
+  const TemporaryFolder folder;
+  const Json scene =
+      Json::parse(R"({"schema_version": 1, "mesh": {"box": {"size": [0.1, 0.04, 0.04], "cells": [4, 2, 2]}},
+    "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3}], "gravity": [0, -3, 0],
+    "boundary": [{"box": [[-1, -1, -1], [1e-9, 1, 1]], "fix": true}], "initial": {"velocity": [0.1, 0.2, 0]},
+    "solver": {"integrator": "tr_bdf2", "step": 1.25e-4, "duration": 0.005, "tolerance": 1e-10}})");
+  const WarningCollector warnings;
+  CHECK_FALSE(solve(parse_scene(scene.dump(), "box.json"), folder / "").halt);
+  CHECK(report_in(folder)["damped_steps"] > 0);
+  REQUIRE(warnings.texts().size() == 1);
+  CHECK(warnings.texts()[0].find("of 40 steps did not converge by tr_bdf2; backward Euler took them") !=
+        std::string::npos);
 }
 
 TEST_CASE("refuses an output folder that is a file") {
