@@ -3,7 +3,7 @@
 namespace heml {
 namespace {
 
-constexpr double max_strain = 0.1;  // of inertia: what few iterations take out again
+constexpr double max_strain = 0.16;  // of inertia: what few iterations take out again
 
 /// Where velocities alone take free nodes.
 template <class Real>
