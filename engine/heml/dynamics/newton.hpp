@@ -23,7 +23,7 @@ struct NewtonOptions {
   double linear_tolerance = 1e-2;                     ///< first ‖residual‖/‖r‖; tightened as Newton converges
   double min_linear_tolerance = min_float_tolerance;  ///< lower bound of the tightened tolerance
   bool refines = true;                                ///< asks for a more precise Φ where its values are round-off
-  bool projects_first = false;  ///< at negative curvature, in large bodies too: iterations are too few to try it
+  bool projects_first = false;  ///< where iterations are too few to try another direction at negative curvature
 };
 
 struct NewtonResult {

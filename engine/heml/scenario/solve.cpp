@@ -88,8 +88,7 @@ void warn_of_silent_differences(const Scene& scene, const World& world) {
   if (const SolverStats stats = world.solver_stats(); solver.step && !solver.budget && stats.damped_steps > 0)
     warn(
         "{} of {} steps did not converge by {}; backward Euler took them, which damps (a smaller solver.step or a "
-        "larger "
-        "solver.tolerance may spare it)",
+        "larger solver.tolerance may spare it)",
         stats.damped_steps, world.steps(),
         solver.integrator == Integrator::automatic ? "their method" : integrator_name(solver.integrator));
   if (!solver.is_static()) return;

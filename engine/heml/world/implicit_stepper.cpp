@@ -181,16 +181,20 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
     if (s_.has_internal_state) s_.body.begin_step(0);
     return false;
   }
-  const Vector solved = x;
-  if (takes_any_iterate() && limit_energy(s_, h, time_after, takes_best_, x, v)) {
-    parts.step.residual(x, residual_);  // forces are taken from what the objective saw last
-    s_.stats.residual = parts.body.relative_residual(residual_);
+  bool was_put_back = false;
+  if (takes_any_iterate()) {
+    const Vector solved = x;
+    if (limit_energy(s_, h, time_after, takes_best_, x, v)) {
+      parts.step.residual(x, residual_);  // forces are taken from what the objective saw last
+      s_.stats.residual = parts.body.relative_residual(residual_);
+      was_put_back = x != solved;
+    }
   }
   parts.body.end_step(x);
   parts.x_before = parts.x;
   parts.v_before = parts.v;
   parts.h_before = h;
-  parts.unbalanced = x == solved ? residual_ : Vector();
+  parts.unbalanced = was_put_back ? Vector() : residual_;
   s_.set_state(x, v, time_after);
   if (s_.has_internal_state) {
     s_.body.commit(s_.state.x.data());

@@ -217,20 +217,19 @@ TEST_CASE("runs a scene by each implicit method") {
   }
 }
 
-TEST_CASE("a static scene in float ends at the tolerance of float") {
+TEST_CASE("a static scene in float ends at the tolerance of float, also where its values are round-off before") {
   const TemporaryFolder folder;
-  Json scene = Json::parse(R"({"schema_version": 1,
+  const Json scene = Json::parse(R"({"schema_version": 1,
     "mesh": {"box": {"size": [0.1, 0.04, 0.04], "cells": [4, 2, 2]}},
     "materials": [{"law": "mooney_rivlin", "K1": 1000, "K2": 300, "kappa": 2e5}],
-    "boundary": [{"box": [[-1, -1, -1], [1e-9, 1, 1]], "fix": true}], "gravity": [0, -9.81, 0],
-    "loads": [{"box": [[0.0999, -1, -1], [1, 1, 1]], "traction": [5, -10, 0]}],
+    "boundary": [{"box": [[-1, -1, -1], [1e-9, 1, 1]], "fix": true},
+                 {"box": [[0.0499, -1, -1], [0.0501, 1e-9, 1]], "translate": [0, 0.004, 0]}],
+    "gravity": [0, -9.81, 0], "loads": [{"box": [[0.0999, -1, -1], [1, 1, 1]], "traction": [5, -10, 0]}],
     "solver": {"integrator": "static", "element": "p2", "precision": "float"}})");
-  for (const double traction : {-10.0, -1.0, -0.1}) {
-    scene["loads"][0]["traction"][1] = traction;
-    CHECK_FALSE(solve(parse_scene(scene.dump(), "box.json"), folder / "").halt);
-    CHECK(report_in(folder)["converged"] == true);
-    CHECK(report_in(folder)["residual"].get<double>() <= 1e-4);
-  }
+  CHECK_FALSE(solve(parse_scene(scene.dump(), "box.json"), folder / "").halt);
+  const Json report = report_in(folder);
+  CHECK(report["converged"] == true);
+  CHECK(report["residual"].get<double>() <= 1e-4);
 }
 
 TEST_CASE("tells of events that a static scene leaves out, and of a force on nodes of no element") {

@@ -129,7 +129,7 @@ TEST_CASE("a body on a table without friction stays there under a budget, of eve
         setup.gravity = Vec3(0, -9.81, 0);
         auto world = make_world(setup);
         while (world->time() < 4) world->tick();
-        CAPTURE(integrator_name(integrator));
+        CAPTURE(std::string(integrator_name(integrator)));
         CAPTURE(single);
         REQUIRE_FALSE(world->halt());
         CHECK(rms_difference(world->positions(), setup.mesh.nodes) < 1e-3);
