@@ -34,7 +34,8 @@ TEST_CASE("a kidney of quadratic elements falls into its vessels with one iterat
   const std::pair<Integrator, double> methods[] = {
       {Integrator::backward_euler, 3e-4}, {Integrator::tr_bdf2, 1e-3}, {Integrator::sdirk2, 2e-3}};
   for (const auto& [integrator, bound] : methods) {
-    CAPTURE(std::string(integrator_name(integrator)));
+    const std::string method(integrator_name(integrator));
+    CAPTURE(method);
     const std::vector<Vec3> many = fallen(scene, integrator, std::nullopt);
     CHECK(rms_difference(fallen(scene, integrator, Budget{1, 0}), many) < bound);  // of 30 mm
   }
