@@ -9,7 +9,6 @@ namespace heml {
 namespace {
 
 constexpr double facing = 0.1;  // cosine, minimum between two surfaces that face each other
-constexpr double flat = 0.02;   // sine: edges with a smaller bend are no ridges
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
 

@@ -15,6 +15,7 @@ class ContactSkin {
   };
   /// Whether something holds for all positions near those of now.
   enum class Answer { no, unsure, yes };
+  static constexpr double flat = 0.02;  ///< sine: edges with a smaller bend are no ridges
 
   /// mesh: at rest, with the present elements only, internal numbers.
   explicit ContactSkin(const TetMesh& mesh);

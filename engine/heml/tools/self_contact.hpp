@@ -43,6 +43,9 @@ class SelfContact {
   SelfContact(const SelfContactSettings& settings, const TetMesh& mesh);
 
   double friction() const { return friction_; }
+  /// m, by which two edges may have crossed before they bend enough to be ridges. Steps do not push them apart from
+  /// there: that would flatten them, so that they cross anew, and shake bodies at rest on each other.
+  double hidden_depth() const { return ContactSkin::flat * edge_; }
 
   /// Pairs that touch or cross while nodes move in straight lines from from(node) to to(node), m. Ascending; valid
   /// until the next call. Empty where a position is not finite. held: pairs that bore a load in the last step,

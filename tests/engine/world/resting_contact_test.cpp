@@ -87,6 +87,30 @@ TEST_CASE("resting contact: a stack stays where it is") {
   CHECK(tool_of<TableState>(*world).force.y() == doctest::Approx(weight).epsilon(5e-3));
 }
 
+TEST_CASE("resting contact: cubes whose faces are halved across each other come to rest, with friction") {
+  for (const int cells : {1, 2})
+    for (const double friction : {0.3, 0.6}) {
+      CAPTURE(cells);
+      CAPTURE(friction);
+      WorldSetup setup;
+      const double edge = 0.03;
+      setup.mesh = make_box(Vec3::Constant(edge), {1, 1, 1});
+      const Eigen::AngleAxisd quarter_turn(std::numbers::pi / 2, Vec3::UnitY());
+      const Eigen::Isometry3d place = Eigen::Translation3d(-0.001, 1.017 * edge, 0.003 + edge) * quarter_turn;
+      add(setup.mesh, make_box(Vec3::Constant(edge), {cells, cells, cells}), place);
+      setup.materials = {{std::nullopt, soft("neo_hookean", 8e3)}};
+      setup.tables = {{Vec3::Zero(), Vec3::UnitY(), 0.5}};
+      setup.self_contact = SelfContactSettings{friction};
+      setup.gravity = Vec3(0, -g, 0);
+      setup.solver.damping = 8;
+      setup.solver.threads = 1;
+      auto world = make_world(setup);
+      run_until(*world, 4);
+      REQUIRE_FALSE(world->halt());
+      CHECK(world->energies().kinetic < 1e-9);  // J; an impact has 1e-4
+    }
+}
+
 TEST_CASE("resting contact: a block on a slope does not creep, and slides where friction cannot hold it") {
   for (const bool on_table : {true, false}) {
     CAPTURE(on_table);
