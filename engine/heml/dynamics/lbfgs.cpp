@@ -48,7 +48,7 @@ NewtonResult minimise_lbfgs(Objective& objective, LinearSolver& linear, const St
     result.measure = stop.measure(at.r);
     if (result.measure <= stop.limit)
       result.status = Status::converged;
-    else if (result.iterations >= max_iterations)
+    else if (result.iterations >= max_iterations || stop.is_interrupted())
       result.status = Status::out_of_iterations;
     else
       result.status = Status::stalled;

@@ -89,7 +89,8 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
       result.measure = round_off.best_measure();
       return finish(NewtonResult::Status::stalled);
     }
-    if (result.iterations >= options.max_iterations) return finish(NewtonResult::Status::out_of_iterations);
+    if (result.iterations >= options.max_iterations || stop.is_interrupted())
+      return finish(NewtonResult::Status::out_of_iterations);
     ++result.iterations;
     const double tolerance = std::clamp(
         std::max(options.linear_tolerance * at.r.norm() / first, last_residual * stop.limit / result.measure),

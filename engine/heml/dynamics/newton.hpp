@@ -5,6 +5,7 @@
 // solution and near incompressibility, |D| of the exact factor past a buckling load. Each is kept while it makes
 // progress. line_search.hpp limits the steps; it avoids long steps that invert elements, since laws that are defined at
 // J < 0 have spurious minima there.
+#include <atomic>
 #include <functional>
 #include <heml/dynamics/linear_solver.hpp>
 #include <heml/dynamics/objective.hpp>
@@ -16,6 +17,8 @@ struct StoppingCriterion {
   std::function<double(const Vector& r)> measure;
   double limit;
   double round_off_limit = limit;  ///< a measure that need not fall further where values are round-off
+  const std::atomic<bool>* interrupted = nullptr;  ///< once it is set, a solve ends as one out of iterations does
+  bool is_interrupted() const { return interrupted && *interrupted; }
 };
 
 struct NewtonOptions {

@@ -64,6 +64,11 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   /// Whether plastic flow comes after the step alone, and not in all that is evaluated in it
   /// (elastic/plastic_flow.hpp).
   void set_flow_lags(bool lags);
+  /// ElasticBody::begin_step(), for the memory of the body alone.
+  void begin_memory_step(double h) {
+    body_.begin_step(static_cast<Real>(h));
+    clear_cache();
+  }
   /// A step begins at x, at a time, s; it has ended at x.
   void begin_step(const Vector& x, double time);
   void end_step(const Vector& x);

@@ -18,6 +18,34 @@ bool flies_alone(const Simulation<Real>& s) {
   return s.model->dead.empty() && s.model->pressures.empty() && s.grasps.empty() && s.contacts.empty();
 }
 
+template <class Real>
+bool may_flow(const ElasticBody<Real>& body) {
+  return std::any_of(body.materials().begin(), body.materials().end(),
+                     [](const Material& material) { return material.plasticity.has_value(); });
+}
+
+struct Released {
+  double energy, before;  ///< J: on the way, and what there was at its start
+};
+
+/// What body and loads give up from parts.x to x in a step of h, s; nothing where that is unknown. What tissue that
+/// relaxes gives up is between that with the memory of the step's start and that with the memory of its end, so the
+/// larger counts.
+template <class Real>
+std::optional<Released> released(const Simulation<Real>& s, double h, const Vector& x, ImplicitState<Real>& parts) {
+  const auto now = [&]() -> std::optional<Released> {
+    const auto after = parts.body.value(x), before = parts.body.value(parts.x);
+    if (!after || !before) return std::nullopt;
+    return Released{*before - *after, *before};
+  };
+  const auto with_end = now();
+  if (!s.has_internal_state) return with_end;
+  parts.body.begin_memory_step(0);
+  const auto with_start = now();
+  parts.body.begin_memory_step(h);
+  return with_end && with_start && with_end->energy > with_start->energy ? with_end : with_start;
+}
+
 }  // namespace
 
 template <class Real>
@@ -36,19 +64,19 @@ void slow_down(const Simulation<Real>& s, double left, const Vector& x, Vector& 
 }
 
 template <class Real>
-bool take_back_gain(Simulation<Real>& s, double time, const Vector& x, Vector& v) {
+bool take_back_gain(Simulation<Real>& s, double h, double time, const Vector& x, Vector& v) {
   ImplicitState<Real>& parts = s.implicit_state();
-  if (parts.free.node.empty() || s.has_internal_state || !s.grasps.empty() || !s.contacts.empty() ||
+  if (parts.free.node.empty() || may_flow(s.body) || !s.grasps.empty() || !s.contacts.empty() ||
       supports_move(*s.model, s.state.time, time))
     return true;
-  const auto after = parts.body.value(x), before = parts.body.value(parts.x);
-  if (!after || !before) return true;
+  const auto given = released(s, h, x, parts);
+  if (!given) return true;
   const double moved = kinetic_energy(parts, parts.v), moves = kinetic_energy(parts, v);
-  const double may = *before + moved - *after;
+  const double may = given->energy + moved;
   // What round-off makes of energies is no gain: taken from every step of a long motion it would add up.
   const double round_off =
       round_off_fraction * parts.body.value_round_off() + std::numeric_limits<Real>::epsilon() * moved;
-  if (moves == 0 || !(moves > may + slack_of_energy * (moved + std::abs(*before)) + round_off)) return true;
+  if (moves == 0 || !(moves > may + slack_of_energy * (moved + std::abs(given->before)) + round_off)) return true;
   if (!flies_alone(s)) {
     v *= std::sqrt(std::max(may, 0.0) / moves);
     return may >= 0 || moves - may <= round_off;
@@ -58,7 +86,7 @@ bool take_back_gain(Simulation<Real>& s, double time, const Vector& x, Vector& v
   const double moves_within = kinetic_energy(parts, inner);
   const double moved_within = moved - kinetic_energy(parts, motions.velocity(parts.x, parts.v));
   const double may_within =
-      *before - *after - motions.weight_work(s.masses->heavy(), s.gravity(), parts.x, x) + moved_within;
+      given->energy - motions.weight_work(s.masses->heavy(), s.gravity(), parts.x, x) + moved_within;
   if (!(moves_within > may_within)) return true;  // a gain of the motion as a whole alone: the method's own error
   v = rigid + std::sqrt(std::max(may_within, 0.0) / moves_within) * inner;
   return may_within >= 0 || moves_within - may_within <= round_off;
@@ -105,8 +133,8 @@ template double kinetic_energy(const ImplicitState<float>&, const Vector&);
 template double kinetic_energy(const ImplicitState<double>&, const Vector&);
 template void slow_down(const Simulation<float>&, double, const Vector&, Vector&);
 template void slow_down(const Simulation<double>&, double, const Vector&, Vector&);
-template bool take_back_gain(Simulation<float>&, double, const Vector&, Vector&);
-template bool take_back_gain(Simulation<double>&, double, const Vector&, Vector&);
+template bool take_back_gain(Simulation<float>&, double, double, const Vector&, Vector&);
+template bool take_back_gain(Simulation<double>&, double, double, const Vector&, Vector&);
 template bool limit_energy(Simulation<float>&, double, double, bool, Vector&, Vector&);
 template bool limit_energy(Simulation<double>&, double, double, bool, Vector&, Vector&);
 

@@ -15,11 +15,11 @@ double kinetic_energy(const ImplicitState<Real>& parts, const Vector& v);
 template <class Real>
 void slow_down(const Simulation<Real>& s, double left, const Vector& x, Vector& v);
 
-/// After a converged step of a method of second order to x at a time, s: takes what it gained from v, which is an error
-/// of third order in the step, as the method's own. Returns false where v has less. Known where nothing but loads with
-/// a potential does work.
+/// After a converged step of h, s, by a method of second order to x at a time, s: takes what it gained from v, which is
+/// an error of third order in the step, as the method's own. Returns false where v has less. Known where nothing but
+/// loads with a potential does work, and nothing flows.
 template <class Real>
-bool take_back_gain(Simulation<Real>& s, double time, const Vector& x, Vector& v);
+bool take_back_gain(Simulation<Real>& s, double h, double time, const Vector& x, Vector& v);
 
 /// After a step of h, s, to any iterate x: takes from x, v what they have gained beyond the work of the loads: from the
 /// velocity while that has it to give, else by going back towards the start, moved as a whole where that will do. Held

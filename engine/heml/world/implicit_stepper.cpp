@@ -174,7 +174,7 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
   });
   Vector &x = step.x, &v = step.v;
   if (done && s_.method != Integrator::backward_euler && !takes_any_iterate()) {
-    const bool paid = take_back_gain(s_, time_after, x, v), is_damped = method == Integrator::backward_euler;
+    const bool paid = take_back_gain(s_, h, time_after, x, v), is_damped = method == Integrator::backward_euler;
     done = is_damped || (paid && !(s_.setup->solver.step && parts.body.inverts_elements(parts.x, x)));
   }
   if (!done) {
@@ -269,6 +269,7 @@ NewtonResult ImplicitStepper<Real>::minimise_stage(double least_limit, Vector& x
   parts.linear.limit_iterations(s_.setup->solver.budget ? s_.setup->solver.budget->linear : 0);
   StoppingCriterion criterion = stage_criterion();
   criterion.limit = std::max(criterion.limit, least_limit);
+  criterion.interrupted = &s_.interrupted;
   if (s_.setup->solver.minimiser == Minimiser::lbfgs) {
     const int patience = s_.setup->solver.budget ? most : quasi_patience * most;
     const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, criterion, patience, x);

@@ -6,6 +6,7 @@
 #include <heml/dynamics/backward_euler.hpp>
 #include <heml/dynamics/bdf2.hpp>
 #include <heml/dynamics/incremental_potential.hpp>
+#include <heml/dynamics/lbfgs.hpp>
 #include <heml/dynamics/newton.hpp>
 #include <heml/dynamics/tr_bdf2.hpp>
 #include <random>
@@ -142,6 +143,29 @@ TEST_CASE("stops with what it has when iterations run out") {
   CHECK(result.status == NewtonResult::Status::out_of_iterations);
   CHECK(result.iterations == 2);
   CHECK(*wells.value(x) < before);
+}
+
+TEST_CASE("a solve that is interrupted ends after the iteration under way, with what it has") {
+  const Fixture f;
+  LinearSolver solver = f.solver(Preconditioner::cholesky);
+  Wells wells(f.mesh, f.free, 0.01);
+  for (const bool quasi_newton : {false, true}) {
+    Vector x = f.random(0, 0.3);
+    const double before = *wells.value(x);
+    std::atomic<bool> interrupted{false};
+    int asked = 0;
+    StoppingCriterion stop = small_residual(1e-10);
+    stop.measure = [&](const Vector& r) {
+      interrupted = ++asked == 3;
+      return r.norm();
+    };
+    stop.interrupted = &interrupted;
+    const NewtonResult result =
+        quasi_newton ? minimise_lbfgs(wells, solver, stop, 60, x) : minimise(wells, solver, stop, {}, x);
+    CHECK(result.status == NewtonResult::Status::out_of_iterations);
+    CHECK(result.iterations == 2);
+    CHECK(*wells.value(x) < before);
+  }
 }
 
 /// Springs with noise in the forces, as of round-off.
