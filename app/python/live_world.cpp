@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include <pthread.h>
 
 #include <app/python/live_world.hpp>
 #include <heml/base/error.hpp>
+#include <heml/scenario/json_text.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +21,27 @@ std::atomic<std::uint64_t> numbers{0};  // of worlds
 Scene with_threads(Scene scene, int threads) {
   if (threads > 0) scene.solver.threads = threads;
   return scene;
+}
+
+/// Top-level keys of a scene whose values, or the files they name, decide how its body moves between events. The mesh
+/// is compared by the world itself.
+Json physics_of(Scene scene) {
+  scene.solver.threads = 0;
+  scene.initial_positions = scene.initial_positions.filename();  // may lie elsewhere where a snapshot was pickled
+  Json json = parse_json(scene_line(scene), scene.file);
+  for (const char* key : {"name", "title", "description", "mesh", "outputs", "view", "skin", "recorded"})
+    json.erase(key);
+  return json;
+}
+
+/// The first key of physics_of() in which two scenes differ; empty: none.
+std::string differing_key(const Scene& one, const Scene& other) {
+  if (&one == &other) return "";  // of the same world or batch: nothing to compare
+  const Json a = physics_of(one), b = physics_of(other);
+  for (const Json* json : {&a, &b})
+    for (const auto& [key, value] : json->items())
+      if (!a.contains(key) || !b.contains(key) || a[key] != b[key]) return key;
+  return "";
 }
 
 /// With undo and redo, whatever the scene's events are.
@@ -122,7 +145,11 @@ std::shared_ptr<Snapshot> LiveWorld::snapshot() {
   return std::make_shared<Snapshot>(world_->snapshot(), recorded_, past_, moment);
 }
 
+/// A snapshot is pickled as its world's scene with all that was done to it, so it goes into worlds of that scene alone.
 void LiveWorld::restore(const Snapshot& snapshot) {
+  if (const std::string key = differing_key(snapshot.scene(), *recorded_); !key.empty())
+    throw InputError("", "snapshot", fmt::format("is of another scene, which has other '{}'", key),
+                     "restore it in a world of the scene it was taken of");
   if (const Status status = world_->restore(*snapshot.state()); !status.ok())
     throw InputError("", "snapshot", status.message(), "restore it in a world of the scene it was taken of");
   past_ = snapshot.past();

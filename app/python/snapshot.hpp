@@ -39,6 +39,7 @@ class Snapshot {
   std::shared_ptr<const WorldSnapshot> state() const;
 
   const Moment& moment() const { return moment_; }
+  const Scene& scene() const { return *scene_; }  ///< of the world it was taken of; its events say nothing
   const EventLog& past() const { return past_; }
   const std::string& build() const { return build_; }
 

@@ -258,8 +258,7 @@ void bind_actions(nb::class_<LiveWorld>& world) {
       .def("apply", &apply, "event"_a,
            "Applies an event now: a dict as in a scene's `events`, e.g. {'gravity': [0, 0, 0]}; its `step` and `at` "
            "are ignored.")
-      .def("grasp", &grasp, nb::kw_only(), "point"_a = nb::none(), "node"_a = nb::none(), "radius"_a = 0,
-           "hand"_a = 0,
+      .def("grasp", &grasp, nb::kw_only(), "point"_a = nb::none(), "node"_a = nb::none(), "radius"_a = 0, "hand"_a = 0,
            "Takes hold of the surface nodes within `radius` (m, at rest) of a node, or of the surface node that was "
            "nearest to `point` (m) at rest. Each hand (0 to 15) holds one patch, and all hold at once.")
       .def(
@@ -294,7 +293,8 @@ void bind_actions(nb::class_<LiveWorld>& world) {
           "Takes back the last cut, burn, tear or removal.")
       .def("snapshot", &snapshot, "The whole state, for restore().")
       .def("restore", &restore, "snapshot"_a,
-           "Returns to a snapshot of this world or of one of the same body. A recording ends before it.")
+           "Returns to a snapshot of this world or of another of the same scene, whose events and outputs may differ. "
+           "A recording ends before it.")
       .def("record", &record, "path"_a.none(),
            "Records from now on into a file that `heml replay --verify` plays; what was done before is written first. "
            "The file is complete after every call. None ends the recording.")
