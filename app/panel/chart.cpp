@@ -122,7 +122,7 @@ class Drawing {
     float widest = 0;
     for (const float tick : ticks(axes_.y)) widest = std::max(widest, ImGui::CalcTextSize(number(tick).c_str()).x);
     return {{area.from.x + em(0.6f) + widest, area.from.y + line + em(0.55f)},
-            {area.to.x - em(0.7f), area.to.y - line - em(0.3f)}};
+            {area.to.x - em(0.7f), area.to.y - line - em(0.5f)}};
   }
 
   Area large_plot(const Area& area) {
@@ -190,24 +190,36 @@ class Drawing {
     std::optional<UseFont> font;
     if (chart_.small) font.emplace(Font::small);
     const float line = ImGui::GetTextLineHeight();
-    const bool every_other = chart_.small;
-    int count = 0;
-    for (const float tick : ticks(axes_.y)) {
-      const float y = std::round(place(axes_.x.low, tick).y) + 0.5f;
-      if (!chart_.small) list_.AddLine({plot_.from.x, y}, {plot_.to.x, y}, colours_.grid);
-      if (every_other && count++ % 2 && tick != 0) continue;
-      const std::string label = number(tick);
-      text(plot_.from.x - em(0.35f) - ImGui::CalcTextSize(label.c_str()).x, y - line / 2, colours_.muted, label);
+    const std::vector<float> up = ticks(axes_.y), along = ticks(axes_.x);
+    std::vector<float> ys, xs;
+    for (const float tick : up) ys.push_back(std::round(place(axes_.x.low, tick).y) + 0.5f);
+    for (const float tick : along) xs.push_back(std::round(place(tick, 0).x) + 0.5f);
+    if (!chart_.small) {
+      for (const float y : ys) list_.AddLine({plot_.from.x, y}, {plot_.to.x, y}, colours_.grid);
+      for (const float x : xs) list_.AddLine({x, plot_.from.y}, {x, plot_.to.y}, colours_.grid);
     }
-    for (const float tick : ticks(axes_.x)) {
-      const float x = std::round(place(tick, 0).x) + 0.5f;
-      if (!chart_.small) list_.AddLine({x, plot_.from.y}, {x, plot_.to.y}, colours_.grid);
-      const std::string label = number(tick);
-      text(x - ImGui::CalcTextSize(label.c_str()).x / 2, plot_.to.y + em(chart_.small ? 0.1f : 0.35f), colours_.muted,
-           label);
-    }
+    const std::vector<std::string> heights = numbers(up), widths = numbers(along);
+    std::vector<float> room;
+    for (const std::string& label : widths) room.push_back(ImGui::CalcTextSize(label.c_str()).x);
+    for (const std::size_t k :
+         labelled_ticks(ys, std::vector<float>(ys.size(), line), chart_.small ? 0.6f * line : 0, shortest(heights)))
+      text(plot_.from.x - em(0.35f) - ImGui::CalcTextSize(heights[k].c_str()).x, ys[k] - line / 2, colours_.muted,
+           heights[k]);
+    // Below the lowest number at the left, which ends half a line under the plot.
+    for (const std::size_t k : labelled_ticks(xs, room, em(0.6f), shortest(widths)))
+      text(xs[k] - room[k] / 2, plot_.to.y + em(chart_.small ? 0.4f : 0.5f), colours_.muted, widths[k]);
     const float zero = std::round(place(0, chart_.logarithmic ? axes_.y.low : 0).y) + 0.5f;
     list_.AddLine({plot_.from.x, zero}, {plot_.to.x, zero}, colours_.axis, chart_.small ? 1 : em(0.07f));
+  }
+  std::vector<std::string> numbers(const std::vector<float>& values) const {
+    std::vector<std::string> texts;
+    for (const float value : values) texts.push_back(number(value));
+    return texts;
+  }
+  /// The roundest number, of which the label is to stay: 0, or 1 of 0.9, 1, 1.1.
+  static std::size_t shortest(const std::vector<std::string>& labels) {
+    const auto is_shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
+    return static_cast<std::size_t>(std::min_element(labels.begin(), labels.end(), is_shorter) - labels.begin());
   }
 
   /// Labels are inside the plot: of vertical lines at the top, each a line lower; of horizontal ones at the right.
@@ -290,6 +302,24 @@ ChartColours panel_chart() {
           colours::text,
           colours::faint,
           (colours::fill & 0x00ffffff) | 0x5a000000};
+}
+
+std::vector<std::size_t> labelled_ticks(std::span<const float> places, std::span<const float> sizes, float gap,
+                                        std::size_t kept) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t every = 1; every <= places.size(); ++every) {
+    chosen.clear();
+    bool has_room = true;
+    for (std::size_t k = kept % every; k < places.size() && has_room; k += every) {
+      if (!chosen.empty()) {
+        const std::size_t before = chosen.back();
+        has_room = std::abs(places[k] - places[before]) >= (sizes[k] + sizes[before]) / 2 + gap;
+      }
+      chosen.push_back(k);
+    }
+    if (has_room) break;
+  }
+  return chosen;
 }
 
 void draw_chart(ImDrawList& list, const Area& area, const Chart& chart, const ChartColours& colours) {

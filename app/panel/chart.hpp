@@ -3,6 +3,7 @@
 // studies.
 #include <app/panel/area.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ struct ChartColours {
 };
 extern const ChartColours light_chart;  ///< of documents
 ChartColours panel_chart();             ///< of the panel, in its theme
+
+/// Which ticks of an axis have a label: every one, or else every second, third … one, so that the labels are at least
+/// `gap` apart. places: of the ticks, evenly spaced; sizes: of their labels, along the axis. kept: a tick that has one
+/// if any has.
+std::vector<std::size_t> labelled_ticks(std::span<const float> places, std::span<const float> sizes, float gap,
+                                        std::size_t kept);
 
 /// Draws into an area of the image, with the fonts of the current ImGui context. Points that are not finite are
 /// omitted.

@@ -5,6 +5,7 @@
 #include <app/panel/compare_section.hpp>
 #include <app/panel/comparison_view.hpp>
 #include <app/panel/quantity.hpp>
+#include <app/panel/rows.hpp>
 #include <app/panel/theme.hpp>
 
 namespace heml::panel {
@@ -20,11 +21,12 @@ std::string distance_text(const Frame& body) {
 void draw_line(const std::string& text, const Pane& pane, float down, ImU32 colour) {
   const float left = static_cast<float>(pane.left) + pane.covered.left;
   const float right = static_cast<float>(pane.left + pane.size.width) - pane.covered.right;
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const std::string shown = elided(text, right - left - em(1));
+  const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.PushClipRect({left, static_cast<float>(pane.top)}, {right, static_cast<float>(pane.top + pane.size.height)});
   list.AddText({std::max(left + em(0.5f), (left + right - size.x) / 2), static_cast<float>(pane.top) + down}, colour,
-               text.c_str());
+               shown.c_str());
   list.PopClipRect();
 }
 

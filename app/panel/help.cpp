@@ -28,6 +28,20 @@ struct Line {
   const char *left, *right;
 };
 
+/// A row: its name, and its meaning at `column`, or below where both do not fit a line. Both are wrapped at `width`.
+void draw_row(const char* left, const char* right, float column, float width) {
+  ImGui::PushTextWrapPos(width);
+  ImGui::TextUnformatted(left);
+  if (ImGui::CalcTextSize(left).x < column - ImGui::GetFontSize() + 1)  // of the widest, rounded
+    ImGui::SameLine(column);
+  else
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + em(1));
+  ImGui::PushStyleColor(ImGuiCol_Text, colours::muted);
+  ImGui::TextUnformatted(right);
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+}
+
 struct Group {
   const char* title;
   std::vector<Line> lines;
@@ -39,14 +53,12 @@ struct Group {
     for (const Line& line : lines) width = std::max(width, left + ImGui::CalcTextSize(line.right).x);
   }
   float height() const { return static_cast<float>(lines.size() + 2) * ImGui::GetTextLineHeightWithSpacing(); }
-  void draw() const {
+  /// room: pixels to the right edge of the window's contents.
+  void draw(float room) const {
     ImGui::BeginGroup();
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", title);
-    for (const Line& line : lines) {
-      ImGui::TextUnformatted(line.left);
-      ImGui::SameLine(left);  // from the left edge of the group
-      ImGui::TextDisabled("%s", line.right);
-    }
+    const float column = width > room ? std::min(left, 0.4f * room) : left;
+    for (const Line& line : lines) draw_row(line.left, line.right, column, ImGui::GetCursorPosX() + room);
     ImGui::Dummy({0, em(0.4f)});
     ImGui::EndGroup();
   }
@@ -64,17 +76,6 @@ std::array<Group, 3> groups_of_page() {
   first.assign(rest.begin(), rest.begin() + std::max<std::ptrdiff_t>(below, 0));
   rest.erase(rest.begin(), rest.begin() + std::ssize(first));
   return groups;
-}
-
-/// A found row: its name, and its meaning below where both do not fit a line.
-void draw_row(const std::string& left, const std::string& right, float column, float width) {
-  ImGui::TextUnformatted(left.c_str());
-  if (ImGui::CalcTextSize(left.c_str()).x < column - ImGui::GetFontSize()) ImGui::SameLine(column);
-  ImGui::PushStyleColor(ImGuiCol_Text, colours::muted);
-  ImGui::PushTextWrapPos(width);
-  ImGui::TextUnformatted(right.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
 }
 
 }  // namespace
@@ -107,7 +108,7 @@ void Help::draw(const Rows& rows, ImVec2 picture) {
   ImGui::Begin("Mouse and keys", nullptr,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar);
-  draw_search();
+  draw_search(room.x - 2 * ImGui::GetStyle().WindowPadding.x - ImGui::GetStyle().ScrollbarSize);
   if (search_[0])
     draw_found(rows, page_.x - ImGui::GetStyle().WindowPadding.x);
   else
@@ -119,13 +120,15 @@ void Help::draw(const Rows& rows, ImVec2 picture) {
   ImGui::End();
 }
 
-void Help::draw_search() {
-  ImGui::SetNextItemWidth(em(18));
+void Help::draw_search(float room) {
+  constexpr const char* how_to_close = "Esc closes";
+  const float beside = ImGui::CalcTextSize(how_to_close).x + ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(std::min(em(18), room - beside));
   if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing searches at once
   if (ImGui::InputTextWithHint("##help", "Search keys and settings", search_.data(), search_.size()))
     need_letters(search_.data());
   ImGui::SameLine();
-  ImGui::TextDisabled("Esc closes");
+  ImGui::TextDisabled("%s", how_to_close);
 }
 
 void Help::draw_page(ImVec2 room) {
@@ -140,12 +143,13 @@ void Help::draw_page(ImVec2 room) {
   const bool large = fits();
   const UseFont chosen(large ? Font::text : Font::small);
   const bool two_columns = large || fits();
+  const float width = room.x - 2 * pad.x - (two_columns ? 0 : ImGui::GetStyle().ScrollbarSize);
   ImGui::BeginGroup();
-  groups[0].draw();
-  groups[1].draw();
+  groups[0].draw(width);
+  groups[1].draw(width);
   ImGui::EndGroup();
   if (two_columns) ImGui::SameLine(0, em(2.5f));
-  groups[2].draw();
+  groups[2].draw(width);
 }
 
 void Help::draw_found(const Rows& rows, float width) const {
@@ -156,7 +160,7 @@ void Help::draw_found(const Rows& rows, float width) const {
   for (const auto& [title, left, right] : found) {
     if (std::exchange(heading, title) != title)
       ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", title.c_str());
-    draw_row(left, right, em(column), width);
+    draw_row(left.c_str(), right.c_str(), em(column), width);
   }
 }
 

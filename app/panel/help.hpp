@@ -27,7 +27,7 @@ class Help {
   void draw(const Rows& rows, ImVec2 picture);
 
  private:
-  void draw_search();
+  void draw_search(float room);
   void draw_page(ImVec2 room);
   void draw_found(const Rows& rows, float width) const;
 

@@ -24,14 +24,14 @@ void draw_plot(std::size_t points, Field field, const History& history) {
   if (points == 1) {
     if (field == Field::none) return;
     const Curve curves[] = {{"Value", colours::text, [](const Reading& r) { return r.measured.value; }}};
-    return plot("measure plot", history, curves, {info(field).unit, 0, 1e-9, 3.2f});
+    return plot("measure plot", history, curves, {info(field).unit, 0, 1e-9, 3.8f});
   }
   const Curve lengths[] = {{"1 to 2", colours::accent, [](const Reading& r) { return r.measured.distance; }},
                            {"2 to 3", colours::potential, [](const Reading& r) { return r.measured.second; }}};
-  plot("measure plot", history, std::span(lengths, points - 1), {"m", 0, 1e-6, 3.2f});
+  plot("measure plot", history, std::span(lengths, points - 1), {"m", 0, 1e-6, 3.8f});
   if (points < 3) return;
   const Curve angle[] = {{"Angle", colours::warning, [](const Reading& r) { return r.measured.angle; }}};
-  plot("angle plot", history, angle, {"°", 0, 1, 3.2f});
+  plot("angle plot", history, angle, {"°", 0, 1, 3.8f});
 }
 
 }  // namespace

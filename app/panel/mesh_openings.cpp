@@ -26,7 +26,8 @@ std::string change_text(const BareMeshOptions& before, const BareMeshOptions& af
   return changes.empty() ? "as guessed" : fmt::format("{}", fmt::join(changes, ", "));
 }
 
-void MeshOpenings::adopt(const std::string& file, const BareMeshOptions& options) {
+void MeshOpenings::adopt(const std::string& file, const BareMeshOptions& options, std::optional<int> own_tets) {
+  if (file != file_ || own_tets) own_tets_ = own_tets;
   if (file != file_) {
     file_ = file;
     all_ = {options};

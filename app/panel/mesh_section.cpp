@@ -108,13 +108,12 @@ int rounded(double count) {
 }
 
 /// Numbers round that of the file; `given` stands for what it came to.
-std::vector<Offer<int>> fineness_offers(const BareMeshChoices& chosen, bool is_scan) {
+std::vector<Offer<int>> fineness_offers(const BareMeshChoices& chosen, int own_tets, bool is_scan) {
   const std::optional<int>& given = chosen.given.tets;
   std::set<int> numbers;
   for (const double fraction : fractions)
-    if (const int tets = rounded(fraction * chosen.read_tets); tets >= min_tets && tets <= max_tets)
-      numbers.insert(tets);
-  if (!is_scan) numbers.insert(chosen.read_tets);
+    if (const int tets = rounded(fraction * own_tets); tets >= min_tets && tets <= max_tets) numbers.insert(tets);
+  if (!is_scan) numbers.insert(own_tets);
   const int now = given.value_or(chosen.tets);
   std::vector<Offer<int>> offers;
   const auto add_now = [&] {
@@ -188,9 +187,9 @@ bool MeshSection::draw_fineness(Rows& rows, BareMeshOptions& options) const {
        (is_scan_ ? "Number of tetrahedra, met within a quarter. "
                  : fmt::format("Number of tetrahedra, {} as read. Another number gives elements better shapes "
                                "too and moves the surface by 0.5 % of the body's size at most. ",
-                               grouped_digits(chosen_->read_tets))) +
+                               grouped_digits(own_tets()))) +
            reason("fineness")},
-      fineness_offers(*chosen_, is_scan_), options.tets);
+      fineness_offers(*chosen_, own_tets(), is_scan_), options.tets);
 }
 
 void MeshSection::draw_findings(Rows& rows) const {

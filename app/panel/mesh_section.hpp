@@ -37,6 +37,8 @@ class MeshSection {
             PanelActions& out);
 
  private:
+  /// A filled surface tells its own number of tetrahedra only where none was chosen.
+  int own_tets() const { return openings_.own_tets().value_or(chosen_->read_tets); }
   std::string reason(const char* about) const;
   bool draw_size(Rows& rows, BareMeshOptions& options) const;
   bool draw_tissue(Rows& rows, const std::vector<RegionMaterial>& materials, BareMeshOptions& options) const;

@@ -3,10 +3,18 @@
 
 namespace heml::panel {
 namespace {
+constexpr float min_width = 16;                                                   // em, of a place for messages
 constexpr float notice_time = 3.5f, notice_time_with_button = 10, fading = 0.5f;  // s
 constexpr ImGuiWindowFlags plain_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
                                           ImGuiWindowFlags_NoNav;
+
+/// The free area, or the whole width of the image where the panel leaves too little for lines of text.
+Area place_in(const Area& free) {
+  if (free.width() >= em(min_width)) return free;
+  return {{0, free.from.y}, {ImGui::GetIO().DisplaySize.x, free.to.y}};
+}
+
 }  // namespace
 
 void Notices::notify(std::string text, std::filesystem::path folder) {
@@ -36,10 +44,11 @@ bool Notices::covers(float x, float y) const {
 BannerPress Notices::draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds) {
   rects_.clear();
   height_beside_ = 0;
+  const Area place = place_in(free);
   const Banner failure{failure_title_, failure_, "Close", colours::danger};
-  if (!failure_.empty() && draw_banner(rows, "failure", free, failure) == BannerPress::button) failure_.clear();
-  const BannerPress pressed = banner ? draw_banner(rows, "banner", free, *banner) : BannerPress::none;
-  if (!notice_.empty()) draw_notice(rows, free, seconds);
+  if (!failure_.empty() && draw_banner(rows, "failure", place, failure) == BannerPress::button) failure_.clear();
+  const BannerPress pressed = banner ? draw_banner(rows, "banner", place, *banner) : BannerPress::none;
+  if (!notice_.empty()) draw_notice(rows, place, seconds);
   return pressed;
 }
 

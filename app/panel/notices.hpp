@@ -26,8 +26,8 @@ class Notices {
   void show_error(std::string title, std::string text);  ///< a failure, shown until closed
   bool close();                                          ///< closes the failure; true if one was open
 
-  /// Draws failure, banner and notice within the free area. Returns which of the banner's buttons was pressed. seconds:
-  /// since the last frame.
+  /// Draws failure, banner and notice within the free area, over the panel where that is too narrow. Returns which of
+  /// the banner's buttons was pressed. seconds: since the last frame.
   BannerPress draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds);
 
   /// The folder whose button was pressed in the last draw(), once.

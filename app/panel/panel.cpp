@@ -24,6 +24,9 @@ constexpr ImGuiWindowFlags column_flags =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+/// Of the labels of comparison runs at the top, pixels.
+float labels_height(const Frame& frame) { return frame.comparisons.empty() ? 0 : em(variant_labels_height); }
+
 bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 
 }  // namespace
@@ -188,8 +191,7 @@ PanelActions Panel::draw(const Frame& frame) {
     draw_controls(frame, !two_columns(picture), out);
     if (two_columns(picture)) draw_readings_column(frame);
   }
-  const float labels = frame.comparisons.empty() ? 0 : em(variant_labels_height);  // of comparison runs, at the top
-  const Area between{{free.from.x + palette, free.from.y + labels}, {free.to.x - palette, free.to.y}};
+  const Area between{{free.from.x + palette, free.from.y + labels_height(frame)}, {free.to.x - palette, free.to.y}};
   const auto banner = state_banner_.choose(frame, motion_.integrator(), motion_.budget(), beside_body(free, picture));
   take_press(notices_.draw(rows_, between, banner, ImGui::GetIO().DeltaTime), frame, out);
   out.open_folder = notices_.take_folder();
@@ -222,7 +224,8 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
   draw_palette(rows_, {tool_.tool().tool, has_table, filmed_frames_}, free, pressed_, palette);
   const float width = palette.to.x - free.from.x;
   const float sign = filmed_frames_ ? draw_film_sign(free, *filmed_frames_) : 0;
-  if (camera_) draw_axes(rows_, *camera_, free, sign, pressed_, rects_.emplace_back());
+  const float top = std::max(sign, free.from.y + labels_height(frame));
+  if (camera_) draw_axes(rows_, *camera_, free, top, pressed_, rects_.emplace_back());
   if (!view_.hints()) return width;
   draw_hints(situation(frame), free);
   free.to.y -= hint_height();

@@ -83,14 +83,29 @@ void draw_tooltip(ImDrawList& list, const PlotCanvas& canvas, const std::deque<R
   ImGui::EndTooltip();
 }
 
-/// On a ground of its own, so that no curve strikes it through.
-void draw_label(ImDrawList& list, const ImVec2& at, ImU32 colour, const std::string& text) {
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const float margin = em(0.15f);
-  list.AddRectFilled({at.x - margin, at.y}, {at.x + size.x + margin, at.y + size.y},
-                     (colours::chart & 0x00ffffff) | 0xb0000000);
-  list.AddText(at, colour, text.c_str());
-}
+/// What stands beside the curves: both ends of the vertical axis at their left, the time under them.
+struct Labels {
+  std::string high, low, time;
+  ImVec2 room;  ///< pixels that they take of width and height
+
+  Labels(const Axis& axis, std::string_view unit)
+      : high(text_of(axis.high, unit)),
+        low(text_of(axis.low, unit)),
+        time(fmt::format("last {:.0f} s", History::span)),
+        room(std::max(em(min_width), std::max(width_of(high), width_of(low)) + em(2 * margin)),
+             ImGui::GetTextLineHeight() + em(margin / 2)) {}
+
+  void draw(ImDrawList& list, const ImVec2& from, const ImVec2& to) const {
+    const float left = from.x + em(margin), bottom = to.y - ImGui::GetTextLineHeight();
+    list.AddText({left, from.y + em(margin / 4)}, colours::muted, high.c_str());
+    list.AddText({left, to.y - room.y - ImGui::GetTextLineHeight() / 2}, colours::muted, low.c_str());
+    list.AddText({to.x - em(margin) - width_of(time), bottom}, colours::faint, time.c_str());
+  }
+
+ private:
+  static constexpr float margin = 0.3f, min_width = 3;  // em; curves stay in place while the numbers are short
+  static float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+};
 
 }  // namespace
 
@@ -106,20 +121,17 @@ void plot(const char* id, const History& history, std::span<const Curve> curves,
   if (readings.empty()) return;
 
   const float inset = em(0.35f);
+  const Axis axis = axis_of(readings, curves, style);
+  const UseFont small(Font::small);
+  const Labels labels(axis, style.unit);
+  labels.draw(list, from, to);
   const PlotCanvas canvas{
-      {from.x, from.y + inset}, {to.x, to.y - inset}, readings.back().time, axis_of(readings, curves, style)};
+      {from.x + labels.room.x, from.y + inset}, {to.x, to.y - labels.room.y - inset / 2}, readings.back().time, axis};
   const float base = canvas.at(canvas.latest, style.base).y;
-  list.AddLine({from.x, base}, {to.x, base}, (colours::faint & 0x00ffffff) | 0x5a000000);
-  list.PushClipRect(from, to, true);
+  list.AddLine({canvas.from.x, base}, {to.x, base}, (colours::faint & 0x00ffffff) | 0x5a000000);
+  list.PushClipRect({canvas.from.x, from.y}, {to.x, to.y - labels.room.y}, true);
   for (const Curve& curve : curves) draw_curve(list, canvas, readings, curve);
   list.PopClipRect();
-  const UseFont small(Font::small);
-  const float margin = em(0.3f);
-  const float bottom = to.y - ImGui::GetTextLineHeight() - margin * 0.2f;
-  const std::string span = fmt::format("last {:.0f} s", History::span);
-  draw_label(list, {from.x + margin, from.y + margin * 0.2f}, colours::muted, text_of(canvas.axis.high, style.unit));
-  draw_label(list, {from.x + margin, bottom}, colours::muted, text_of(canvas.axis.low, style.unit));
-  draw_label(list, {to.x - margin - ImGui::CalcTextSize(span.c_str()).x, bottom}, colours::faint, span);
   if (ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown()) draw_tooltip(list, canvas, readings, curves, style.unit);
 }
 

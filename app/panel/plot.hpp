@@ -17,11 +17,11 @@ struct PlotStyle {
   std::string_view unit;  ///< of the values: SI, or "", "%", "×", "mm", "°", which take no prefix
   double base = 0;        ///< a value that is always within the plot
   double min_range = 0;   ///< of the vertical axis; keeps noise from filling the plot
-  float height = 4.2f;    ///< em
+  float height = 4.7f;    ///< em
 };
 
 /// Draws a plot over the available width; the newest reading is at the right edge. Both ends of the axes have labels
-/// with units; a tooltip shows the values under the mouse.
+/// with units, beside the curves; a tooltip shows the values under the mouse.
 void plot(const char* id, const History& history, std::span<const Curve> curves, const PlotStyle& style);
 
 }  // namespace heml::panel

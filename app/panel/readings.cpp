@@ -50,7 +50,7 @@ void draw_force(Rows& rows, const Frame& frame, const History& history) {
                           {"Probe", colours::warning, [](const Reading& r) { return r.probe; }},
                           {"Table", colours::kinetic, [](const Reading& r) { return r.tables; }},
                           {"Sutures", colours::danger, [](const Reading& r) { return r.sutures; }}};
-  plot("force plot", history, curves, {"N", 0, 1e-3, 3.2f});
+  plot("force plot", history, curves, {"N", 0, 1e-3, 3.8f});
 }
 
 void draw_energies(Rows& rows, const Frame& frame, const History& history) {
@@ -67,7 +67,7 @@ void draw_energies(Rows& rows, const Frame& frame, const History& history) {
       {"Elastic", colours::elastic, [](const Reading& r) { return r.energies.elastic; }},
       {"Kinetic", colours::kinetic, [](const Reading& r) { return r.energies.kinetic; }},
   };
-  plot("energy plot", history, curves, {"J", 0, 1e-9, 4.2f});
+  plot("energy plot", history, curves, {"J", 0, 1e-9, 4.7f});
 }
 
 void draw_volume(Rows& rows, const Frame& frame, const History& history) {
@@ -103,7 +103,7 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
       {"Max", colours::kinetic, [](const Reading& r) { return r.max_J; }},
       {"Whole", colours::text, [](const Reading& r) { return r.volume; }},
   };
-  plot("volume plot", history, curves, {"", 1, 0.01, 3.0f});
+  plot("volume plot", history, curves, {"", 1, 0.01, 3.6f});
 }
 
 void draw_errors(Rows& rows, const Frame& frame, const History& history) {
@@ -123,9 +123,9 @@ void draw_errors(Rows& rows, const Frame& frame, const History& history) {
   rows.value({"Max time error", "Time error of the worst node, mm."},
              time ? fmt::format("{:.2g} mm", 1e3 * time->max) : "–", 0);
   const Curve mesh_curve[] = {{"Mesh", colours::accent, [](const Reading& r) { return r.mesh_error; }}};
-  plot("mesh error plot", history, mesh_curve, {"%", 0, 1, 2.8f});
+  plot("mesh error plot", history, mesh_curve, {"%", 0, 1, 3.4f});
   const Curve time_curve[] = {{"Steps", colours::warning, [](const Reading& r) { return r.time_error; }}};
-  plot("time error plot", history, time_curve, {"mm", 0, 1e-6, 2.8f});
+  plot("time error plot", history, time_curve, {"mm", 0, 1e-6, 3.4f});
 }
 
 void draw_engine(Rows& rows, const Frame& frame, const History& history) {
@@ -165,11 +165,11 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
       {"Slowest", colours::warning, [](const Reading& r) { return r.slow_tick; }},
       {"Typical", colours::accent, [](const Reading& r) { return r.typical_tick; }},
   };
-  plot("tick plot", history, curves, {"s", 0, 1e-6, 2.8f});
+  plot("tick plot", history, curves, {"s", 0, 1e-6, 3.4f});
   rows.value({"Slowdown", "Wall seconds per simulated second, over the last second: 1 is real time, 2 half as fast."},
              pace.slowdown < 1e8 ? fmt::format("{:.2f} ×", pace.slowdown) : "–", colours::potential);
   const Curve late[] = {{"Slowdown", colours::potential, [](const Reading& r) { return std::min(r.slowdown, 100.0); }}};
-  plot("lateness plot", history, late, {"×", 1, 0.5, 2.2f});
+  plot("lateness plot", history, late, {"×", 1, 0.5, 2.9f});
 }
 
 }  // namespace

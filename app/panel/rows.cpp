@@ -2,6 +2,7 @@
 #include <imgui_internal.h>  // TempInputIsActive, ClosePopupToLevel
 
 #include <algorithm>
+#include <app/panel/decimal_comma.hpp>
 #include <app/panel/rows.hpp>
 #include <array>
 #include <cctype>
@@ -34,14 +35,6 @@ void draw_track(float place) {
   list.AddRectFilled(from, to, hovered ? colours::track_hovered : colours::track, rounding);
   if (filled > from.x + rounding)
     list.AddRectFilled(from, {filled, to.y}, colours::fill, rounding, ImDrawFlags_RoundCornersLeft);
-}
-
-/// Before a control that a number is typed into: ImGui drops commas, which would make 25 of "2,5".
-/// active: whether it takes letters.
-void read_comma_as_point(bool active) {
-  if (!active) return;
-  for (ImWchar& letter : ImGui::GetIO().InputQueueCharacters)
-    if (letter == ',') letter = '.';
 }
 
 std::string formatted(const char* format, double value) {
@@ -157,9 +150,12 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   double edited = value;
   ImGui::PushID(label.text.c_str());
   const ImGuiID id = ImGui::GetID("##value");
-  read_comma_as_point(ImGui::GetActiveID() == id);
-  bool changed =
-      ImGui::SliderScalar("##value", ImGuiDataType_Double, &edited, &range.low, &range.high, range.format, flags);
+  bool changed = false;
+  {
+    const CommaAsPoint commas(ImGui::GetActiveID() == id);
+    changed =
+        ImGui::SliderScalar("##value", ImGuiDataType_Double, &edited, &range.low, &range.high, range.format, flags);
+  }
   if (is_typing(id, ImGui::TempInputIsActive(id), changed, edited)) changed = false;
   ImGui::PopID();
   ImGui::PopStyleColor(3);
@@ -188,7 +184,7 @@ bool Rows::number(const Label& label, double& value, const SliderRange& range) {
   const std::string name = "##" + label.text;
   double edited = value;
   const ImGuiID id = ImGui::GetID(name.c_str());
-  read_comma_as_point(ImGui::GetActiveID() == id);
+  const CommaAsPoint commas(ImGui::GetActiveID() == id);
   bool changed = ImGui::InputScalar(name.c_str(), ImGuiDataType_Double, &edited, nullptr, nullptr, range.format,
                                     ImGuiInputTextFlags_CharsScientific);
   const bool active = ImGui::IsItemActive();
@@ -203,7 +199,7 @@ bool Rows::vector(const Label& label, Vec3& value, const SliderRange& range) {
   begin(label);
   const std::string name = "##" + label.text;
   Vec3 edited = value;
-  read_comma_as_point(active_vector_ == label.text);
+  const CommaAsPoint commas(active_vector_ == label.text);
   if (ImGui::InputScalarN(name.c_str(), ImGuiDataType_Double, edited.data(), 3, nullptr, nullptr, range.format,
                           ImGuiInputTextFlags_CharsScientific)) {
     typed_vector_ = edited.array().isNaN().select(0.0, edited);

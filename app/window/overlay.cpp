@@ -6,6 +6,7 @@
 #include <app/panel/quantity.hpp>
 #include <app/panel/theme.hpp>
 #include <app/render/bounds.hpp>
+#include <app/window/label_place.hpp>
 #include <app/window/overlay.hpp>
 #include <cmath>
 #include <numbers>
@@ -43,23 +44,36 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const SurfaceMesh& su
 
 namespace {
 
-/// A label to the right of a point of the body, within what the panel leaves free of the pane.
-void draw_label(const Vec3f& place, const std::string& text, ImU32 colour, const panel::CameraController& controller) {
-  const render::Vec2f at = controller.pixel(place);
-  if (!at.allFinite()) return;
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 pad(panel::em(0.5f), panel::em(0.25f));
+/// What the panel leaves free of the current pane.
+panel::Area free_of(const panel::CameraController& controller) {
   const panel::Pane& pane = controller.pane();
-  const auto within = [](float wanted, float low, float high) { return std::max(low, std::min(wanted, high)); };
-  const float left = static_cast<float>(pane.left) + pane.covered.left, top = static_cast<float>(pane.top);
-  const float right = static_cast<float>(pane.left + pane.size.width) - pane.covered.right;
-  const ImVec2 from(within(at.x() + panel::em(1.4f), left + pad.x, right - size.x - pad.x),
-                    within(at.y() - size.y / 2, top + pad.y,
-                           top + static_cast<float>(pane.size.height) - size.y - pad.y));
+  const auto left = static_cast<float>(pane.left), top = static_cast<float>(pane.top);
+  return {
+      {left + pane.covered.left, top},
+      {left + static_cast<float>(pane.size.width) - pane.covered.right, top + static_cast<float>(pane.size.height)}};
+}
+
+ImVec2 label_pad() { return {panel::em(0.5f), panel::em(0.25f)}; }  // round its text
+
+/// A label with its text at a pixel.
+void draw_label_at(const ImVec2& from, const std::string& text, ImU32 colour) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str()), pad = label_pad();
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddRectFilled({from.x - pad.x, from.y - pad.y}, {from.x + size.x + pad.x, from.y + size.y + pad.y},
                      panel::colours::background, panel::em(0.4f));
   list.AddText(from, colour, text.c_str());
+}
+
+/// A label to the right of a point of the body, within what the panel leaves free of the pane.
+void draw_label(const Vec3f& place, const std::string& text, ImU32 colour, const panel::CameraController& controller) {
+  const render::Vec2f at = controller.pixel(place);
+  if (!at.allFinite()) return;
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str()), pad = label_pad();
+  const panel::Area free = free_of(controller);
+  const auto within = [](float wanted, float low, float high) { return std::max(low, std::min(wanted, high)); };
+  draw_label_at({within(at.x() + panel::em(1.4f), free.from.x + pad.x, free.to.x - size.x - pad.x),
+                 within(at.y() - size.y / 2, free.from.y + pad.y, free.to.y - size.y - pad.y)},
+                text, colour);
 }
 
 void draw_force(const Vec3& force, const Vec3& place, const panel::CameraController& controller) {
@@ -124,7 +138,10 @@ void draw_measured(const panel::Measured& measured, const panel::CameraControlle
   }
   const std::string text = panel::measured_text(measured);
   if (text.empty()) return;
-  draw_label((measured.places[0] + measured.places[1]) / 2, text, panel::colours::warning, controller);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str()), pad = label_pad();
+  const ImVec2 whole(size.x + 2 * pad.x, size.y + 2 * pad.y);
+  const ImVec2 from = place_beside(line, whole, free_of(controller), panel::em(0.6f));
+  draw_label_at({from.x + pad.x, from.y + pad.y}, text, panel::colours::warning);
 }
 
 void draw_pivot(const Vec3f& point, const panel::CameraController& controller) {

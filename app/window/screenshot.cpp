@@ -1,5 +1,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <app/render/png.hpp>
@@ -61,13 +62,18 @@ std::string name_in_file(const std::string& name) {
   return stem.empty() ? "body" : stem;
 }
 
+bool can_save_in(const fs::path& folder) {
+  std::error_code failed;
+  return !folder.empty() && fs::is_directory(folder, failed) && access(folder.c_str(), W_OK) == 0;
+}
+
 fs::path folder_to_save_in() {
   std::error_code failed;
   const char* home = std::getenv("HOME");
   for (const fs::path& folder : {fs::current_path(failed), fs::path(home ? home : ""), fs::temp_directory_path(failed)})
-    if (!folder.empty() && fs::is_directory(folder, failed)) return folder;
-  throw InputError("", "the working directory", "is gone, and there is no home or temporary folder",
-                   "start heml in a folder that exists");
+    if (can_save_in(folder)) return folder;
+  throw InputError("", "the working directory", "is gone or cannot be written, and so are home and temporary folder",
+                   "make one of them again, and save again: what is open stays as it is");
 }
 
 }  // namespace
@@ -80,6 +86,13 @@ fs::path unused_path(const std::string& name, const std::string& ending, const s
   std::error_code failed;
   for (int k = 2; fs::exists(path, failed); ++k) path = folder / fmt::format("{}-{}{}", stem, k, ending);
   return path;
+}
+
+std::string why_saved_in(const fs::path& folder) {
+  std::error_code failed;
+  const fs::path working = fs::current_path(failed);
+  if (working.empty()) return "\nIt is there because the working folder is gone.";
+  return folder == working ? "" : "\nIt is there because the working folder cannot be written.";
 }
 
 fs::path save_image(const render::Image& image, const std::string& name) {

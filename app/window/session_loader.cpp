@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <app/render/png.hpp>
 #include <app/window/glfw_window.hpp>
+#include <app/window/lost_files.hpp>
 #include <app/window/session_loader.hpp>
 #include <app/window/state_folder.hpp>
 #include <chrono>
@@ -30,7 +31,12 @@ SessionOptions options_for(const Scene& scene, const std::optional<fs::path>& re
   return options;
 }
 
-bool can_be_written(const fs::path& folder) { return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0; }
+/// A working folder that was removed seems writable, but has no path any more.
+bool can_be_written(const fs::path& folder) {
+  std::error_code failed;
+  const fs::path whole = fs::canonical(folder.empty() ? "." : folder, failed);
+  return !failed && access(whole.c_str(), W_OK) == 0;
+}
 
 /// What scene_around() chose, and other warnings on the way to a session, each once and without the file's path.
 std::vector<std::string> findings_of(const Scene& scene, const std::vector<std::string>& warnings) {
@@ -65,11 +71,13 @@ fs::path next_recording(const fs::path& file) {
 
 OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> comparisons,
                 std::vector<std::string> warnings) {
-  OpenScene result{std::move(scene), nullptr, record, false, std::move(comparisons), {}};
+  OpenScene result{std::move(scene), {}, nullptr, record, false, std::move(comparisons), {}};
+  if (record) result.file = RecordingFile(*record, result.scene);
+  const WarningCollector further;
+  hold_files(result.scene);
   result.was_recorded = result.scene.recorded_ticks.has_value();
   SessionOptions options = options_for(result.scene, record);
   options.comparisons = result.comparisons;
-  const WarningCollector further;
   result.session = std::make_unique<Session>(result.scene, options);
   try_texture(result.session->latest());
   warnings.insert(warnings.end(), further.texts().begin(), further.texts().end());
@@ -118,7 +126,9 @@ OpenScene SessionLoader::replay_to(Scene scene, const std::optional<fs::path>& r
   options.start_paused = true;
   options.fast_forward_to = target_tick;
   options.comparisons = comparisons;
-  OpenScene result{std::move(scene), nullptr, file, record.has_value(), std::move(comparisons), target_tick};
+  OpenScene result{std::move(scene), {}, nullptr, file, record.has_value(), std::move(comparisons), target_tick};
+  if (file) result.file = RecordingFile(*file, result.scene);
+  hold_files(result.scene);
   result.session = std::make_unique<Session>(result.scene, options);
   while (!cancelled_) {
     const Frame& frame = result.session->latest();

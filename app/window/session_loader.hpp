@@ -1,5 +1,6 @@
 #pragma once
 // Starts the sessions of scenes; opens further ones on another thread while a session runs.
+#include <app/window/recording_file.hpp>
 #include <atomic>
 #include <filesystem>
 #include <future>
@@ -12,6 +13,7 @@ namespace heml::window {
 
 struct OpenScene {
   Scene scene;
+  RecordingFile file;  ///< `recording`, locked until the session has ended
   std::unique_ptr<Session> session;
   std::optional<std::filesystem::path> recording;  ///< file being written
   bool was_recorded = false;                       ///< the scene is a recording, or was resumed from one
@@ -20,8 +22,8 @@ struct OpenScene {
   std::vector<std::string> findings = {};          ///< what was found and chosen on opening, for people
 };
 
-/// Starts the session of a scene, whose frames wake the window. record: file to write. warnings: of reading the scene.
-/// Throws InputError.
+/// Starts the session of a scene, whose frames wake the window. record: file to write, which is not to hold anything
+/// yet. warnings: of reading the scene. Throws InputError.
 OpenScene start(Scene scene, const std::optional<std::filesystem::path>& record,
                 std::vector<std::string> comparisons = {}, std::vector<std::string> warnings = {});
 

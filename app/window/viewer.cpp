@@ -176,7 +176,9 @@ void Viewer::draw_interface(float seconds) {
 /// What the panel is to know of a bare mesh.
 void Viewer::show_mesh() {
   if (!open_.scene.chosen) return openings_.clear();
-  openings_.adopt(open_.scene.file, open_.scene.chosen->given);
+  const BareMeshChoices& chosen = *open_.scene.chosen;
+  const bool is_as_asked = chosen.given.tets && open_.scene.mesh.file.empty();  // a surface or scan was filled so
+  openings_.adopt(open_.scene.file, chosen.given, is_as_asked ? std::nullopt : std::optional(chosen.read_tets));
   mesh_folded_ = is_mesh_folded(open_.scene.file);
   panel_->mesh().set_openings(openings_);
   panel_->mesh().set_open(!mesh_folded_);
@@ -314,6 +316,12 @@ void Viewer::end_recording() {
                                                       "asked about before the window closes.");
   open_.recording.reset();
   unsaved_.recording_ended();
+  recording_problem_ = live_->recording_problem;
+}
+
+std::string Viewer::recording_problem() {
+  const std::string& latest = newest().recording_problem;  // may have come after the last picture
+  return latest.empty() ? recording_problem_ : latest;
 }
 
 /// What is done to a body that is about to be replaced would be lost.

@@ -43,7 +43,10 @@ class Viewer final : public WindowEvents {
   bool quits() const { return quits_; }
   void ask_to_quit();                             ///< quits, or asks first what is to become of unsaved work
   long drawn() const { return drawn_; }           ///< images so far
-  const Frame& frame() const { return *frame_; }  ///< the one drawn last
+  /// The session's newest frame, also while a past one is shown: of how the session ends, past ones tell nothing.
+  const Frame& newest() { return open_.session->latest(); }
+  /// Why a recording of this window ended early; empty: none did.
+  std::string recording_problem();
 
   /// Looks for devices that move hands and reads those that are there. Returns whether there are any: they are read
   /// again and again, since they send no events.
@@ -183,6 +186,7 @@ class Viewer final : public WindowEvents {
   bool listed_ = false;            ///< a folder, before
   bool run_after_resume_ = false;  ///< the resumed session is to run
   UnsavedWork unsaved_;
+  std::string recording_problem_;  ///< of a recording that ended early, also where another session came since
   std::optional<std::filesystem::path> left_work_;  ///< of another run of the program: it is asked about, or restored
   bool restores_ = false;                           ///< the session being prepared is that of left_work_
   std::function<void()> after_question_;            ///< unless it is cancelled

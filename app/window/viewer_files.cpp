@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <app/window/lost_files.hpp>
 #include <app/window/run_program.hpp>
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
@@ -15,7 +16,7 @@ namespace heml::window {
 
 /// Says where something is, with a button that opens the folder where the system can.
 void Viewer::notify_saved(const std::string& text, const std::filesystem::path& folder) {
-  panel_->notify(text, find_program("xdg-open").empty() ? std::filesystem::path() : folder);
+  panel_->notify(text + why_saved_in(folder), find_program("xdg-open").empty() ? std::filesystem::path() : folder);
 }
 
 void Viewer::save_screenshot() {
@@ -47,6 +48,7 @@ void Viewer::save_scene() {
       write_tet_mesh(mesh_file, refined.mesh);
       scene = std::move(refined.scene);
     }
+    const std::string lost = keep_lost_files(scene);
     panel_->write_into(scene);
     scene.tables.clear();
     for (const TableState& state : tools_of<TableState>(live_->tools)) scene.tables.push_back(state.table);
@@ -55,9 +57,9 @@ void Viewer::save_scene() {
     write_file(path, scene_text(scene, path.parent_path()));
     unsaved_.scene_saved();
     panel_->mesh().set_kept(path);
-    notify_saved("Saved " + path.string(), path.parent_path());
+    notify_saved("Saved " + path.string() + lost, path.parent_path());
   } catch (const InputError& error) {
-    panel_->notify(error.what());
+    panel_->show_error("Could not be saved", error.what());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <app/window/lost_files.hpp>
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
 #include <ctime>
@@ -69,9 +70,11 @@ void Viewer::answer(std::size_t which) {
 bool Viewer::save_work() {
   try {
     const auto path = unused_path(open_.scene.name, ".jsonl");
-    write_file(path, recording_of(open_.session->until(*live_), path.parent_path()));
-    log_info("what was done is in {}", path.string());
-    notify_saved("Saved " + path.string(), path.parent_path());
+    Scene scene = open_.session->until(*live_);
+    const std::string lost = keep_lost_files(scene);
+    write_file(path, recording_of(std::move(scene), path.parent_path()));
+    log_info("what was done is in {}{}", path.string(), lost);
+    notify_saved("Saved " + path.string() + lost, path.parent_path());
     return true;
   } catch (const InputError& error) {
     panel_->show_error("Could not be saved", error.what());

@@ -68,10 +68,11 @@ std::optional<std::string> run_window(const Scene& scene, const WindowOptions& o
     window::GlfwWindow window("heml", options.size.value_or(window::read_preferences().window), !options.size);
     window::Viewer viewer(window, scene, options);
     show(window, viewer, options);
-    const Frame& last = viewer.frame();
+    const Frame& last = viewer.newest();
     fmt::print("{} frames drawn, {} ticks, {} missed deadlines, {:.3g} wall seconds per simulated second\n",
                viewer.drawn(), last.tick, last.pace.missed, last.pace.slowdown);
-    if (!last.recording_problem.empty()) throw InputError("", "the recording ended early", last.recording_problem);
+    if (const std::string problem = viewer.recording_problem(); !problem.empty())
+      throw InputError("", "the recording ended early", problem);
     return std::nullopt;
   } catch (const window::NoDisplay& reason) {
     return reason.what();

@@ -43,6 +43,7 @@ class WindowCase(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.log = self.folder / "pictures.log"
         self.descendants = None  # read end of a pipe, see start()
+        self.process_options = {}  # of subprocess.Popen, in place of those of start()
 
     # The program.
 
@@ -56,9 +57,10 @@ class WindowCase(unittest.TestCase):
         have ended."""
         self.descendants, held = os.pipe()
         with open(self.log, "w") as log:
-            self.program = subprocess.Popen([BINARY, "run", "--log-pictures", *map(str, arguments)], cwd=self.folder,
-                                            env=self.environment, stdout=subprocess.PIPE, stderr=log, text=True,
-                                            pass_fds=(held,))
+            options = dict(cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=log, text=True,
+                           pass_fds=(held,))
+            self.program = subprocess.Popen([BINARY, "run", "--log-pictures", *map(str, arguments)],
+                                            **(options | self.process_options))
         os.close(held)
         self.addCleanup(self.end)
 

@@ -1,9 +1,29 @@
 """Work done by hand in the window: asked about on quitting, saved as a recording, restored after a kill."""
 import json
+import os
+import shutil
 import subprocess
 import unittest
 
-from window_case import BINARY, WindowCase
+from window_case import BINARY, WindowCase, light_scene
+
+BAR = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 0.1 0 0
+3 0 0.1 0
+4 0 0 0.1
+5 0.1 0.1 0.1
+$EndNodes
+$Elements
+2
+1 4 2 1 1 1 2 3 4
+2 4 2 1 1 2 3 4 5
+$EndElements
+"""
 
 
 class Work(WindowCase):
@@ -46,6 +66,62 @@ class Work(WindowCase):
         self.pull()
         self.quit()
         self.assertEqual(self.left_files(), [])
+
+    def test_a_recording_does_not_replace_one_that_is_there(self):
+        self.open_display(640, 360)
+        self.begin_light("--record", "out.jsonl")
+        for wanted in ("another window", "new file"):  # while it is written, and afterwards
+            before = (self.folder / "out.jsonl").read_text()
+            second = subprocess.run([BINARY, "run", "light.json", "--record", "out.jsonl"], cwd=self.folder,
+                                    env=self.environment, capture_output=True, text=True)
+            self.assertEqual(second.returncode, 3, second.stderr)
+            self.assertIn(wanted, second.stderr)
+            self.assertTrue((self.folder / "out.jsonl").read_text().startswith(before))
+            if self.descendants is not None:
+                self.quit()
+        self.verify()
+
+    def test_a_recording_that_failed_is_told_at_the_end_also_where_the_past_is_shown(self):
+        pipe = self.folder / "pipe.jsonl"
+        os.mkfifo(pipe)
+        reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+        self.process_options = {"restore_signals": False}  # a pipe without a reader is then an error, not a signal
+        self.open_display(640, 360)
+        self.begin_light("--record", pipe)
+        self.play(20)
+        os.close(reader)
+        self.pull()
+        self.play(20)
+        self.xdo("key", "space")
+        self.do("key", "Home")
+        self.do("key", "ctrl+q")
+        self.xdo("key", "Right", "key", "Return")  # Discard
+        self.program.communicate(timeout=60)
+        self.assertEqual(self.program.returncode, 3, self.log.read_text()[-2000:])
+        self.assertIn("the recording ended early", self.log.read_text())
+
+    def test_a_scene_is_saved_in_full_when_its_folder_is_gone(self):
+        work, home = self.folder / "work", self.folder / "home"
+        work.mkdir(), home.mkdir()
+        (work / "body.msh").write_text(BAR)
+        (work / "bar.json").write_text(json.dumps(dict(light_scene(), name="bar", mesh={"file": "body.msh"})))
+        self.open_display(640, 360)
+        self.environment["HOME"] = str(home)
+        self.process_options = {"cwd": work}
+        self.begin("bar.json", "--size", "640x360", colours=50)
+        shutil.rmtree(work)
+        self.do("key", "ctrl+s")
+        self.pull()
+        self.do("key", "ctrl+q")
+        self.xdo("key", "Return")  # Save
+        self.finish()
+        [scene] = home.glob("heml-bar-*.json")
+        [recording] = home.glob("heml-bar-*.jsonl")
+        self.assertEqual(len(list(home.glob("heml-bar-mesh-*.msh"))), 2)
+        for file, command in ((scene, ("solve", scene, "--out", home / "out")), (recording, ("replay", recording))):
+            with self.subTest(file.suffix):
+                done = subprocess.run([BINARY, *command], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_work_of_a_killed_program_is_offered_and_restored(self):
         self.open_display(640, 360)

@@ -1,3 +1,5 @@
+#include <imgui_internal.h>
+
 #include <app/panel/axes.hpp>
 
 #include "driver.hpp"
@@ -43,6 +45,18 @@ TEST_CASE("the ends of the axes are found where they are drawn, and cover the im
   driver.panel.set_camera(camera_at(3.14159265f, 0));
   driver.find("Axis −x", right);
   CHECK(driver.click().look == StandardView::left);
+}
+
+TEST_CASE("the axes stand below the labels of comparison runs") {
+  for (const bool compares : {false, true}) {
+    Driver driver(small_scene(), 480, 360, 0.72f);
+    if (compares) driver.frame.comparisons.emplace_back();
+    driver.panel.set_camera(camera_at(0, 0));
+    driver.draw();
+    const ImGuiWindow* axes = ImGui::FindWindowByName("axes");
+    REQUIRE(axes);
+    CHECK((axes->Pos.y > panel::em(3.4f)) == compares);
+  }
 }
 
 TEST_CASE("the section View has the standard views, with Ctrl the opposite ones, and the orthographic camera") {

@@ -59,6 +59,42 @@ TEST_CASE("curves stay within the area, the right way up") {
   }
 }
 
+TEST_CASE("labels of ticks are left out where they would overlap, but one") {
+  using Chosen = std::vector<std::size_t>;
+  const std::vector<float> places{0, 10, 20, 30, 40}, narrow(5, 8), wide(5, 15);
+  CHECK(labelled_ticks(places, narrow, 1, 2) == Chosen{0, 1, 2, 3, 4});
+  CHECK(labelled_ticks(places, narrow, 5, 2) == Chosen{0, 2, 4});
+  CHECK(labelled_ticks(places, wide, 1, 1) == Chosen{1, 3});
+  CHECK(labelled_ticks(places, std::vector<float>(5, 100), 1, 3) == Chosen{3});
+  CHECK(labelled_ticks(std::vector<float>{40, 30, 20}, std::vector<float>(3, 15), 1, 0) == Chosen{0, 2});  // upwards
+  CHECK(labelled_ticks({}, {}, 1, 0).empty());
+}
+
+TEST_CASE("the numbers of a small chart do not overlap") {
+  for (const float width : {120.0f, 200.0f, 280.0f}) {
+    CAPTURE(width);
+    test::ImguiContext context(1280, 720, 1);
+    ImGui::NewFrame();
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    Chart chart = chart_of({{0.7, -9.7e3}, {1, 0}, {1.5, 9.9e3}});
+    chart.small = true;
+    draw_chart(list, {{100, 50}, {100 + width, 143}}, chart, light_chart);
+    std::vector<ImVec2> corners;  // four of each letter, the first at its upper left
+    for (const ImDrawVert& v : list.VtxBuffer)
+      if (v.col == light_chart.muted) corners.push_back(v.pos);
+    REQUIRE(corners.size() % 4 == 0);
+    REQUIRE(corners.size() > 40);
+    for (std::size_t a = 0; a < corners.size(); a += 4)
+      for (std::size_t b = 0; b < a; b += 4) {
+        constexpr float touching = 1.5f;  // pixels: letters of a word do
+        const bool apart = corners[a].x >= corners[b + 2].x - touching || corners[b].x >= corners[a + 2].x - touching ||
+                           corners[a].y >= corners[b + 2].y - touching || corners[b].y >= corners[a + 2].y - touching;
+        CHECK(apart);
+      }
+    ImGui::Render();
+  }
+}
+
 TEST_CASE("points that are not finite are omitted and a chart without points is empty") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   CHECK(drawn(chart_of({{1, nan}, {infinite, 2}})).empty());

@@ -1,3 +1,6 @@
+#include <imgui_internal.h>
+
+#include <algorithm>
 #include <app/panel/help.hpp>
 #include <app/panel/keys.hpp>
 
@@ -54,6 +57,19 @@ TEST_CASE("a click beside the help closes it, one on it does not") {
   driver.move({1270, 750});
   driver.click();
   CHECK_FALSE(driver.panel.is_modal());
+}
+
+TEST_CASE("the help fits into windows of any width, its texts wrapped") {
+  for (const float width : {240.0f, 300.0f, 500.0f, 1280.0f}) {
+    CAPTURE(width);
+    Driver driver(small_scene(), width, 480, 0.72f);
+    press(driver, Action::help);
+    const ImGuiWindow* window = ImGui::FindWindowByName("Mouse and keys");
+    REQUIRE(window);
+    CHECK(window->Size.x <= width);
+    CHECK(window->ContentSize.x <= window->InnerRect.GetWidth() - 2 * window->WindowPadding.x + 1);
+    CHECK(window->ContentSize.x > 0.6f * std::min(width, 700.0f));
+  }
 }
 
 TEST_CASE("rows list themselves only while they are searched") {

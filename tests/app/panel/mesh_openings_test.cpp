@@ -51,6 +51,17 @@ TEST_CASE("openings of a file come one after another") {
   CHECK(openings.text(-2) == "as guessed");
 }
 
+TEST_CASE("the file's own number of elements is kept while openings of it do not tell it") {
+  MeshOpenings openings;
+  openings.adopt("a.obj", guessed, 1200);
+  openings.adopt("a.obj", inches);
+  CHECK(openings.own_tets() == 1200);
+  openings.adopt("a.obj", guessed, 1300);
+  CHECK(openings.own_tets() == 1300);
+  openings.adopt("b.obj", inches);
+  CHECK_FALSE(openings.own_tets());
+}
+
 TEST_CASE("an opening that there was becomes the present one, and what came after it waits") {
   MeshOpenings openings = three();
   openings.adopt("a.mesh", inches);

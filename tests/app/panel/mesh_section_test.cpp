@@ -119,6 +119,21 @@ TEST_CASE("coarser, finer and better meshes are offered about the number of the 
   CHECK_FALSE(driver.choose("Tetrahedra", "2" + gap + "048").mesh_options);
 }
 
+TEST_CASE("the numbers that are offered stay about the file's own after a choice") {
+  BareMeshOptions given;
+  given.tets = 510;
+  Scene scene = mesh_scene(given);
+  scene.chosen->read_tets = scene.chosen->tets = 500;  // a surface, filled as asked
+  Driver driver(scene);
+  panel::MeshOpenings openings;
+  openings.adopt("a.obj", {}, 2048);
+  openings.adopt("a.obj", given);
+  driver.panel.mesh().set_openings(openings);
+  const std::string gap = "\u00a0";  // grouped digits
+  CHECK(driver.choose("Tetrahedra", "4" + gap + "100, finer").mesh_options->tets == 4100);
+  CHECK(driver.choose("Tetrahedra", "2" + gap + "048, finer").mesh_options->tets == 2048);
+}
+
 TEST_CASE("what was found is listed with counts") {
   Scene scene = mesh_scene();
   scene.chosen->findings = {{4, "holes", "closed", true}, {634, "slivers", "kept", false}};

@@ -1,3 +1,5 @@
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <heml/scenario/presets.hpp>
 
@@ -433,6 +435,21 @@ TEST_CASE("a stopped body shows a banner with a reset button") {
   const auto actions = driver.click();
   REQUIRE(actions.commands.size() == 1);
   CHECK(std::holds_alternative<Reset>(actions.commands.front()));
+}
+
+TEST_CASE("in a window with no room beside the panel the banner has the whole width") {
+  for (const float width : {240.0f, 320.0f, 400.0f}) {
+    CAPTURE(width);
+    Driver driver(small_scene(), width, 480, 0.72f);
+    driver.frame.halted = "element 7 left the range of its law";
+    for (int k = 0; k < 3; ++k) driver.draw();
+    const ImGuiWindow* banner = ImGui::FindWindowByName("banner");
+    REQUIRE(banner);
+    CHECK(banner->Pos.x >= 0);
+    CHECK(banner->Pos.x + banner->Size.x <= width);
+    CHECK(banner->Size.x > 0.6f * width);
+    CHECK(banner->ContentSize.y + 2 * banner->WindowPadding.y <= banner->Size.y + 1);  // down to the button
+  }
 }
 
 TEST_CASE("a banner appears once the engine has been late for a second") {

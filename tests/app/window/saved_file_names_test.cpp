@@ -71,8 +71,10 @@ TEST_CASE("a long name is cut between letters and its file can be written") {
 TEST_CASE("files are saved in the home folder when the working directory is gone") {
   const Workplace workplace;
   CHECK(unused_path("kidney", ".json").parent_path() == workplace.path);
+  CHECK(window::why_saved_in(workplace.path).empty());
   fs::remove(workplace.path);
   CHECK(unused_path("kidney", ".json").parent_path() == workplace.home);
+  CHECK(window::why_saved_in(workplace.home).find("working folder is gone") != std::string::npos);
 }
 
 }  // namespace heml::saved_file_names_test
