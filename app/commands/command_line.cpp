@@ -90,7 +90,7 @@ constexpr ExitCodeInfo exit_codes[] = {
     {exit_done, "done", ""},
     {exit_check_failed, "a check failed",
      "`replay --verify` differs or is incomplete; a promised study case falls short or a value of the quick accuracy "
-     "study has grown; `tune` found nothing good enough; `refine` would need more tetrahedra"},
+     "study has grown; `tune` found nothing good enough; `refine` has not reached its error"},
     {exit_usage, "wrong usage", ""},
     {exit_input, "bad input",
      "file, scene, mesh or material; an event that the world refuses; an output that cannot be written"},

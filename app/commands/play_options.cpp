@@ -39,7 +39,10 @@ Action define_run(CLI::App& command) {
   const auto given = std::make_shared<RunArguments>();
   const auto size = std::make_shared<std::string>();
   add_scene_or_default(command, given->scene);
-  command.add_option("--record", given->record, "append every action to this recording (.jsonl)")->type_name("FILE");
+  command
+      .add_option("--record", given->record,
+                  "write every action as it happens into this recording (.jsonl), a new file")
+      ->type_name("FILE");
   add_comparisons(command, given->comparisons);
   command.add_option("--size", *size, "size of the window, pixels; else as it was left, at first 1280x720")
       ->type_name("WxH");

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <heml/base/byte_order_mark.hpp>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/write_file.hpp>
@@ -45,11 +46,12 @@ std::string header(bool with_dF) {
 }
 
 StateTable read_table(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  if (!in) throw InputError(path.string(), "", "cannot be read", "a CSV file with the header " + header(false));
+  std::ifstream in(path);  // of a pipe too
+  if (std::error_code ignored; !in || std::filesystem::is_directory(path, ignored))
+    throw InputError(path.string(), "", "cannot be read", "a CSV file with the header " + header(false));
   std::string line;
   std::getline(in, line);
-  if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark, as spreadsheets write it
+  line.erase(0, byte_order_mark_size(line));
   std::string names;
   for (const std::string& cell : split(line)) names += (names.empty() ? "" : ",") + cell;
   StateTable table;

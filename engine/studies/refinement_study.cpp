@@ -11,10 +11,11 @@ double relative(double squared, double stored) { return std::sqrt(squared / (2 *
 
 Json adapt_beam(const Problem& problem, int max_tets) {
   Json meshes = Json::array();
-  adapt(problem.scene, problem.setup, RefineGoal{0, max_tets}, {}, [&](const AdaptedMesh& mesh) {
+  const auto add = [&](const AdaptedMesh& mesh) {
     meshes.push_back(
         {{"tets", mesh.tets}, {"estimated", mesh.error}, {"stored", mesh.stored}, {"potential", mesh.potential}});
-  });
+  };
+  adapt(problem.scene, problem.setup, RefineGoal{0, max_tets}, {}, {add});
   return meshes;
 }
 

@@ -69,10 +69,12 @@ void leave_out(const std::filesystem::path& path, const std::vector<int>& nodes,
   }
   for (Tet& tet : mesh.tets)
     for (int& n : tet) n = number[static_cast<std::size_t>(n)];
-  if (const auto first = std::find(dropped.begin(), dropped.end(), true);
-      std::find(first, dropped.end(), false) != dropped.end())
-    warn("{}: from node {} on, nodes have other numbers than in the file: those that are left, from 0 in its order",
-         path.string(), first - dropped.begin());
+  const auto first = std::find(dropped.begin(), dropped.end(), true);
+  if (const auto moved = std::find(first, dropped.end(), false) - dropped.begin(); moved < std::ssize(dropped))
+    warn(
+        "{}: nodes are numbered anew, without those left out: \"nodes\" of a scene and results count from 0 what is "
+        "left; node {} of the file, counted from 0, is {} there, and those before node {} keep their numbers",
+        path.string(), moved, number[static_cast<std::size_t>(moved)], first - dropped.begin());
   mesh.nodes = std::move(kept);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <heml/base/byte_order_mark.hpp>
 #include <heml/base/error.hpp>
 #include <heml/mesh/scanner.hpp>
 
@@ -34,7 +35,7 @@ std::string in_quotes(std::string_view word) {
 
 Scanner::Scanner(std::string file, std::string_view text, char comment, bool by_line)
     : file_(std::move(file)), text_(text), comment_(comment), by_line_(by_line) {
-  if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;  // byte order mark
+  position_ = byte_order_mark_size(text_);
 }
 
 std::size_t Scanner::line() const { return 1 + std::count(text_.begin(), text_.begin() + last_, '\n'); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <heml/base/byte_order_mark.hpp>
 #include <heml/base/error.hpp>
 #include <heml/mesh/scanner.hpp>
 #include <heml/mesh/xml.hpp>
@@ -76,7 +77,7 @@ class XmlDocument::Parser {
 
   void parse() {
     if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff")) fail(0, "is in UTF-16", "save it in UTF-8");
-    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;
+    at_ = byte_order_mark_size(text_);
     while (at_ < text_.size()) {
       const std::size_t tag = std::min(text_.find('<', at_), text_.size());
       characters(text_.substr(at_, tag - at_));

@@ -17,6 +17,9 @@ namespace {
 constexpr const char* refine_key = "mesh.refine";
 constexpr const char* other_remedy = "refine it at a time of its motion instead: heml refine SCENE --at SECONDS";
 constexpr double refined_share = 0.5;  // of the squared error, per round
+// Errors fall by a third in eight rounds where elements near an edge or corner hold most of them.
+constexpr std::size_t rounds_without_gain = 8;
+constexpr double least_gain = 0.1;
 
 void check(const Scene& scene, const WorldSetup& setup, const std::optional<double>& time) {
   if (!has_straight_edges(setup))
@@ -68,8 +71,18 @@ Solved solved(const Scene& scene, const WorldSetup& setup, const std::optional<d
   return {*found, world->energies()};
 }
 
+/// Whether the least error of the last rounds is hardly below that of the rounds before. Supports and forces at single
+/// nodes have stresses that grow with every refinement about them.
+bool has_stagnated(const std::vector<AdaptedMesh>& meshes) {
+  if (meshes.size() <= rounds_without_gain) return false;
+  const auto by_error = [](const AdaptedMesh& a, const AdaptedMesh& b) { return a.error < b.error; };
+  const auto last = meshes.end() - rounds_without_gain;
+  return std::min_element(last, meshes.end(), by_error)->error >
+         (1 - least_gain) * std::min_element(meshes.begin(), last, by_error)->error;
+}
+
 /// "12,800"
-std::string grouped(std::size_t number) {
+std::string grouped(auto number) {
   std::string text = std::to_string(number);
   for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');
   return text;
@@ -88,18 +101,20 @@ std::vector<RegionTag> names_of_regions(const TetMesh& mesh) {
 }  // namespace
 
 Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& time,
-                 const std::function<void(const AdaptedMesh&)>& told) {
+                 const AdaptationObserver& observer) {
   check(scene, setup, time);
   Adaptation result;
   result.origins.resize(setup.mesh.tets.size());
   std::iota(result.origins.begin(), result.origins.end(), 0);
   for (;;) {
+    if (observer.begun) observer.begun(setup.mesh.tets.size());
     const auto [error, energies] = solved(scene, setup, time);
     result.meshes.push_back({setup.mesh.nodes.size(), setup.mesh.tets.size(), error.relative(), energies.elastic,
                              energies.elastic + energies.potential});
-    if (told) told(result.meshes.back());
+    if (observer.told) observer.told(result.meshes.back());
     result.reached = error.relative() <= goal.error;
-    if (result.reached) break;
+    result.stagnated = !result.reached && has_stagnated(result.meshes);
+    if (result.reached || result.stagnated) break;
     WorldSetup corners = corners_of(setup);
     Refinement finer = refine_longest_edge(corners.mesh, doerfler_marking(error.of_element, refined_share));
     if (finer.mesh.tets.size() > static_cast<std::size_t>(goal.tets)) break;
@@ -160,6 +175,16 @@ AdaptedScene refined_scene(Scene scene, const std::filesystem::path& mesh_file) 
   const RefineGoal goal = *scene.mesh.refine;
   scene.mesh.refine.reset();
   return on_last_mesh(scene, adapt(scene, load_setup(scene), goal, {}), mesh_file);
+}
+
+std::string why_not_reached(const Adaptation& adaptation, const RefineGoal& goal) {
+  if (adaptation.reached) return "";
+  if (!adaptation.stagnated)
+    return fmt::format("{:.3g} % would need more than {} tetrahedra", 100 * goal.error, grouped(goal.tets));
+  return fmt::format(
+      "{:.3g} % is not reached: the error has hardly fallen in {} refinements, as where a support or a force is at "
+      "single nodes (give them an area)",
+      100 * goal.error, rounds_without_gain);
 }
 
 std::string text_of(const AdaptedMesh& mesh) {

@@ -26,13 +26,24 @@ struct Adaptation {
   std::vector<int> origins;         ///< #T of the last mesh: each element's ancestor in the first mesh
   std::vector<AdaptedMesh> meshes;  ///< from the first to the last
   bool reached = false;             ///< whether the last mesh meets the goal's error
+  bool stagnated = false;           ///< whether the error has stopped falling, as under forces at points
+};
+
+/// Who follows an adaptation. Either may be empty.
+struct AdaptationObserver {
+  std::function<void(const AdaptedMesh&)> told = {};  ///< of every mesh once its error is known
+  std::function<void(std::size_t tets)> begun = {};   ///< of every mesh before it is solved
 };
 
 /// setup: of the scene, on the initial mesh. time: s, of the scene's motion, at which the error is estimated; empty: in
-/// equilibrium under all loads, without events. told: called with every mesh once its error is known. Throws InputError
-/// where the scene cannot be solved or is not deformed there. Solves the scene once per mesh.
+/// equilibrium under all loads, without events. Throws InputError where the scene cannot be solved or is not deformed
+/// there. Solves the scene once per mesh, until the goal's error or number of tetrahedra is reached, or the error has
+/// not fallen by a tenth in eight meshes.
 Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& time,
-                 const std::function<void(const AdaptedMesh&)>& told = {});
+                 const AdaptationObserver& observer = {});
+
+/// Why an adaptation has not reached its goal's error, in one sentence; reached: empty.
+std::string why_not_reached(const Adaptation& adaptation, const RefineGoal& goal);
 
 /// The scene on the last mesh, with the fields and regions of the scene's own mesh. The caller writes `mesh` to
 /// mesh_file. Throws InputError where events have elements by their numbers.

@@ -1,5 +1,6 @@
 // Makes a world from a scene: reads files, resolves selections, and checks what depends on the mesh.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <heml/base/error.hpp>
@@ -12,6 +13,7 @@
 #include <heml/scenario/positions_csv.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/selection.hpp>
+#include <set>
 
 namespace heml {
 namespace {
@@ -55,12 +57,27 @@ void tag_regions(const Scene& scene, TetMesh& mesh) {
   }
 }
 
+/// Every element has a material, and every entry of `materials` that applies to none is told.
+void check_materials(const Scene& scene, const TetMesh& mesh) {
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const int m : material_of_elements(mesh, scene.materials, scene.file)) used[static_cast<std::size_t>(m)] = true;
+  const std::set<int> regions(mesh.regions.begin(), mesh.regions.end());
+  for (std::size_t m = 0; m < used.size(); ++m) {
+    if (used[m]) continue;
+    if (const std::optional<int> region = scene.materials[m].region)
+      warn("{}: materials[{}]: no element carries region {}; the mesh has {}", scene.file, m, *region,
+           fmt::join(regions, ", "));
+    else
+      warn("{}: materials[{}]: the default applies to no element: every region has an entry of its own", scene.file, m);
+  }
+}
+
 WorldSetup refined_setup(const Scene& scene, WorldSetup setup) {
-  Adaptation adapted = adapt(scene, std::move(setup), *scene.mesh.refine, {},
-                             [](const AdaptedMesh& mesh) { log_info("refining the mesh: {}", text_of(mesh)); });
+  const RefineGoal& goal = *scene.mesh.refine;
+  Adaptation adapted = adapt(scene, std::move(setup), goal, {},
+                             {[](const AdaptedMesh& mesh) { log_info("refining the mesh: {}", text_of(mesh)); }});
   if (!adapted.reached)
-    warn("{}: mesh.refine: {} and no more than {} tetrahedra do not go together; took {}", scene.file,
-         scene.mesh.refine->error, scene.mesh.refine->tets, text_of(adapted.meshes.back()));
+    warn("{}: mesh.refine: {}; took {}", scene.file, why_not_reached(adapted, goal), text_of(adapted.meshes.back()));
   check_recorded_mesh(scene, adapted.setup.mesh);
   return std::move(adapted.setup);
 }
@@ -83,6 +100,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges) {
   setup.midedges = std::move(midedges);
   if (scene.solver.quadratic && setup.midedges.empty()) setup.midedges = add_midedge_nodes(setup.mesh);
   tag_regions(scene, setup.mesh);
+  check_materials(scene, setup.mesh);
   setup.materials = scene.materials;
   resolve_fields(scene.file, setup);
   if (!scene.mesh.refine) check_recorded_mesh(scene, setup.mesh);

@@ -55,6 +55,16 @@ void check_midedges(const TetMesh& mesh, const MidEdges& midedges) {
                      "mesh it finer there, or take \"element\": \"p1\", which leaves them out");
 }
 
+/// check_tets(). Where the scene makes or places the mesh, errors name the scene too.
+QualityReport checked(const Scene& scene, TetMesh& mesh, MidEdges* midedges) try {
+  return check_tets(mesh, midedges);
+} catch (const InputError& error) {
+  const MeshSpec& spec = scene.mesh;
+  const bool is_placed = spec.scale != 1 || spec.rotate_degrees != 0 || !spec.translate.isZero(0);
+  if (mesh.source == scene.file || !(spec.box || is_placed)) throw;
+  throw InputError(scene.file, "mesh", error.what());
+}
+
 TetMesh meshed_labels(const Scene& scene) {
   LabelMeshOptions options;
   options.tets = scene.mesh.label_tets;
@@ -134,9 +144,10 @@ TetMesh load_mesh(const Scene& scene, MidEdges* midedges) {
       Eigen::Map<Vec3> vector(&field.values[i]);
       vector = placement.direction(vector);
     }
-  const QualityReport report = check_tets(mesh, midedges);
+  const QualityReport report = checked(scene, mesh, midedges);
   if (midedges) check_midedges(mesh, *midedges);
-  for (const std::string& warning : report.warnings) warn("{}: {}", mesh.source, warning);
+  const std::string source = scene.mesh.box ? scene.file + ": mesh: " + mesh.source : mesh.source;
+  for (const std::string& warning : report.warnings) warn("{}: {}", source, warning);
   if (!scene.mesh.box && !is_feb_file(scene.mesh.file))  // a model has all of its numbers in its unit
     if (const std::string odd = unit_warning(report.low, report.high); !odd.empty()) warn("{}: {}", mesh.source, odd);
   return mesh;

@@ -19,7 +19,6 @@ constexpr std::string_view header = "node,x,y,z";
 std::vector<Vec3> read_positions_csv(const std::filesystem::path& path, int nodes) {
   const std::string content = read_text_file(path);
   std::string_view text = content;
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark, as spreadsheets write it
   const auto fail = [&](long line, const std::string& problem, const std::string& remedy) {
     throw InputError(path.string(), fmt::format("line {}", line), problem, remedy);
   };

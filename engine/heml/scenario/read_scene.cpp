@@ -237,7 +237,7 @@ bool is_json_lines(std::string_view text) {
 }
 
 bool looks_like_json(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != text.npos && text[first] == '{';
 }
 
@@ -272,6 +272,7 @@ FileKind kind_of(const fs::path& path) {
 }
 
 Scene read_scene(const fs::path& path, const BareMeshOptions& options) {
+  if (path.empty()) throw InputError("", "SCENE", "is empty", "give the path or the name of a scene");
   if (is_feb_file(path)) return scene_from_feb(path, options);
   const FileKind kind = kind_of(path);
   if (kind == FileKind::surface || kind == FileKind::tetrahedra || kind == FileKind::labels)

@@ -78,7 +78,21 @@ void add_tool(const ToolState& tool, Json& report) {
       tool);
 }
 
+bool is_inverted(double J) { return !(J > 0); }
+
 }  // namespace
+
+std::string inversion_message(World& world) {
+  const std::vector<double> J = world.point_volume_ratios();  // one an element, or four
+  const auto inverted = std::count_if(J.begin(), J.end(), is_inverted);
+  if (inverted == 0) return "";
+  const std::vector<int>& elements = world.topology()->elements;
+  const std::size_t of_each = J.size() / elements.size();
+  const auto least = std::min_element(J.begin(), J.end());
+  return fmt::format("{} of {} {} are inverted or flat (J ≤ 0), most of all element {} with J = {:.3g}", inverted,
+                     J.size(), of_each == 1 ? "elements" : "integration points",
+                     elements[static_cast<std::size_t>(least - J.begin()) / of_each], *least);
+}
 
 std::string report_text(World& world, const SolveFacts& facts, const std::string& file) {
   const Energies energies = world.energies();
@@ -102,7 +116,7 @@ std::string report_text(World& world, const SolveFacts& facts, const std::string
                  {"potential_energy", energies.potential},
                  {"min_J", *std::min_element(J.begin(), J.end())},
                  {"max_J", *std::max_element(J.begin(), J.end())},
-                 {"inverted", std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); })}};
+                 {"inverted", std::count_if(J.begin(), J.end(), is_inverted)}};
   report["reaction"] = Json::array();
   for (const Vec3& force : world.reactions()) report["reaction"].push_back(vector_json(force));
   for (const ToolState& tool : world.tools()) add_tool(tool, report);

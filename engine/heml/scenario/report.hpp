@@ -18,6 +18,9 @@ struct SolveFacts {
 /// The text of report.json (app/docs/commands.md), indented. file: named where a message cannot be written.
 std::string report_text(World& world, const SolveFacts& facts, const std::string& file = "");
 
+/// "3 of 40 elements are inverted ...", with the least J and where it is; empty where none is.
+std::string inversion_message(World& world);
+
 /// Writes report.json (app/docs/commands.md); extremes of J are of the present elements. Throws InputError when it
 /// cannot be written.
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts);

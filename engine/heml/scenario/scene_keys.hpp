@@ -103,7 +103,7 @@ inline constexpr KeyInfo refine[] = {
 inline constexpr KeyInfo rotate[] = {
     {"axis", form::direction, "", required, "normalised when read; right-handed"},
     {"origin", form::vector, "m", "", "a point of the axis"},
-    {"degrees", form::number, "°", required, "angle"},
+    {"degrees", form::between(-1e9, 1e9), "°", required, "angle"},
 };
 inline constexpr KeyInfo materials[] = {
     {"law", form::other("name of a [law](../../engine/docs/laws.md)"), "", "required, or `preset`",

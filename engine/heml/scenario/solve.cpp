@@ -78,23 +78,51 @@ Outcome play(const std::vector<Landing>& landings, World& world, Player& player,
   outcome.facts.halt = world.halt();
   if (outcome.refused) outcome.facts.refused = outcome.refused->what();
   outcome.facts.converged = !outcome.facts.halt && !outcome.refused && world.solver_stats().unconverged_steps == 0;
-  if (const std::string message = rescue_message(world.solver_stats()); !message.empty()) warn("{}", message);
   return outcome;
 }
+
+/// left_out: events of the scene that a run to its end has not played.
+void warn_of_left_out_events(const Scene& scene, std::size_t left_out) {
+  if (left_out == 0) return;
+  const SolverSettings& solver = scene.solver;
+  warn("{}: {} of {} events are left out: {}", scene.file, left_out, scene.events.size(),
+       solver.is_static() ? std::string("a static solve plays those at step 0 alone")
+                          : fmt::format("they come after solver.duration, {} s", solver.duration));
+}
+
+void warn_of_rescues(const Scene& scene, const World& world) {
+  if (const std::string message = rescue_message(world.solver_stats()); !message.empty())
+    warn("{}: {}", scene.file, message);
+}
+
+/// Tells once of the states of a run that have inverted elements, which laws without a barrier at J = 0 allow.
+class InversionWatch {
+ public:
+  void look_at(World& world, const std::string& stem) {
+    const std::string message = inversion_message(world);
+    if (message.empty()) return;
+    if (count_++ == 0) first_ = fmt::format("{}: {}", stem, message);
+  }
+  void tell(const std::string& file) const {
+    if (count_ == 0) return;
+    warn("{}: {}{} (move or load it more gently, or take a law that ends at J = 0)", file, first_,
+         count_ > 1 ? fmt::format("; so have {} of the states after it", count_ - 1) : "");
+  }
+
+ private:
+  std::string first_;
+  int count_ = 0;
+};
 
 /// What the numbers of a run do not show by themselves.
 void warn_of_silent_differences(const Scene& scene, const World& world) {
   const SolverSettings& solver = scene.solver;
   if (const SolverStats stats = world.solver_stats(); solver.step && !solver.budget && stats.damped_steps > 0)
     warn(
-        "{} of {} steps did not converge by {}; backward Euler took them, which damps (a smaller solver.step or a "
+        "{}: {} of {} steps did not converge by {}; backward Euler took them, which damps (a smaller solver.step or a "
         "larger solver.tolerance may spare it)",
-        stats.damped_steps, world.steps(),
+        scene.file, stats.damped_steps, world.steps(),
         solver.integrator == Integrator::automatic ? "their method" : integrator_name(solver.integrator));
-  if (!solver.is_static()) return;
-  const auto later = std::count_if(scene.events.begin(), scene.events.end(), [](const Event& e) { return e.tick > 0; });
-  if (later > 0)
-    warn("{} of {} events are left out: a static solve plays those at step 0 alone", later, scene.events.size());
 }
 
 }  // namespace
@@ -113,6 +141,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   trace.sample(*world);
   const Scene recorded = scene.solver.recovery ? as_recorded(scene, *world) : scene;
   RecoveryMonitor watch;
+  InversionWatch inversions;
   Observers observers;
   observers.on_tick = [&] {
     const auto news = watch.after_tick(*world);
@@ -126,10 +155,15 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   };
   observers.at_landing = [&](const Landing& landing, bool is_last, bool reached) {
     trace.sample(*world);
+    if (reached) inversions.look_at(*world, landing.stem);
     if (is_last || reached) write_state(out, landing.stem, *world, is_last || scene.output_positions, scene.output_vtu);
   };
   const Outcome outcome = play(landings, *world, player, observers);
+  warn_of_rescues(scene, *world);
   warn_of_silent_differences(scene, *world);
+  if (!outcome.facts.halt && !outcome.refused)
+    warn_of_left_out_events(scene, scene.events.size() - player.past_events().size());
+  inversions.tell(scene.file);
   trace.write(out);
   write_report(out / "report.json", *world, outcome.facts);
   if (outcome.refused) {
@@ -147,6 +181,7 @@ SolveFacts solve(const Scene& scene, World& world, const std::function<bool()>& 
   observers.on_tick = [&] { return !stopped && !(stopped = !on_tick()); };
   observers.at_landing = [](const Landing&, bool, bool) {};
   const Outcome outcome = play(landings, world, player, observers);
+  warn_of_rescues(scene, world);
   if (outcome.refused) throw *outcome.refused;
   return outcome.facts;
 }

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <heml/base/byte_order_mark.hpp>
 #include <heml/base/error.hpp>
 #include <heml/scenario/text_file.hpp>
 
@@ -32,6 +33,7 @@ std::string read_text_file(const fs::path& path) {
   if (!file)
     throw InputError(path.string(), "", fmt::format("cannot be read: {}", std::strerror(errno)),
                      "check its permissions");
+  text.erase(0, byte_order_mark_size(text));
   return text;
 }
 

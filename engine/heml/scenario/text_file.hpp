@@ -6,7 +6,8 @@
 
 namespace heml {
 
-/// Content of a file. Throws InputError when it is missing, unreadable, not a regular file, or over 1 GB.
+/// Content of a file, without the byte order mark it may begin with. Throws InputError when it is missing, unreadable,
+/// not a regular file, or over 1 GB.
 std::string read_text_file(const std::filesystem::path& path);
 
 bool is_blank(std::string_view text);           ///< spaces, tabs and line ends only

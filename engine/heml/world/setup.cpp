@@ -1,12 +1,9 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <heml/base/error.hpp>
-#include <heml/base/log.hpp>
 #include <heml/world/setup.hpp>
 #include <limits>
-#include <set>
 
 namespace heml {
 namespace {
@@ -51,34 +48,25 @@ int material_of_region(int region, const std::vector<RegionMaterial>& materials)
   return fallback;
 }
 
-std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials) {
+std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials,
+                                      const std::string& file) {
+  const std::string& source = file.empty() ? mesh.source : file;
   for (std::size_t m = 0; m < materials.size(); ++m)
     for (std::size_t other = 0; other < m; ++other)
       if (materials[other].region == materials[m].region)
-        throw InputError(mesh.source, fmt::format("materials[{}]", m),
+        throw InputError(source, fmt::format("materials[{}]", m),
                          materials[m].region ? fmt::format("a second entry for region {}", *materials[m].region)
                                              : std::string("a second entry without region"),
                          fmt::format("the first is materials[{}]: one entry a region", other));
-  const std::set<int> tags(mesh.regions.begin(), mesh.regions.end());
   std::vector<int> result(mesh.tets.size());
-  std::vector<bool> used(materials.size(), false);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     result[t] = material_of_region(mesh.regions[t], materials);
     if (result[t] < 0)
       throw InputError(
-          mesh.source, "materials",
+          source, "materials",
           fmt::format("region {} (element {}) has no material and there is no default", mesh.regions[t], t),
           fmt::format("add an entry without 'region', or one with \"region\": {}", mesh.regions[t]));
-    used[static_cast<std::size_t>(result[t])] = true;
   }
-  for (std::size_t m = 0; m < materials.size(); ++m)
-    if (!used[m]) {
-      if (materials[m].region)
-        warn("materials[{}]: no element carries region {}; the mesh has {}", m, *materials[m].region,
-             fmt::join(tags, ", "));
-      else
-        warn("materials[{}]: the default applies to no element: every region has an entry of its own", m);
-    }
   return result;
 }
 

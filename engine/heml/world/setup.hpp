@@ -137,9 +137,9 @@ bool use_double_for_memory(WorldSetup& setup);
 /// The entry of `materials` for elements of a region: its own, or the default; −1: there is neither.
 int material_of_region(int region, const std::vector<RegionMaterial>& materials);
 
-/// One entry of `materials` per element: index into setup.materials.
-/// Throws InputError for a region without material and for two entries of one region; warns of an entry that matches
-/// nothing.
-std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials);
+/// One entry of `materials` per element: index into `materials`. file: the scene's, for messages; empty: they name the
+/// mesh. Throws InputError for a region without material and for two entries of one region.
+std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials,
+                                      const std::string& file = {});
 
 }  // namespace heml

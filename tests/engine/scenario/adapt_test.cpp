@@ -89,11 +89,18 @@ TEST_CASE("the estimate is 0.9 to 1.3 of what a body of linear elements errs by,
 TEST_CASE("a mesh is refined until its estimate is as asked for, and the error falls with every mesh") {
   const Scene scene = sagging();
   std::size_t told = 0;
-  const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.4, 5000}, {}, [&](const AdaptedMesh& mesh) {
+  std::vector<std::size_t> begun;
+  const auto tell = [&](const AdaptedMesh& mesh) {
     ++told;
+    CHECK(begun.size() == told);
+    CHECK(begun.back() == mesh.tets);
     CHECK(mesh.error > 0);
-  });
+  };
+  const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.4, 5000}, {},
+                                   {tell, [&](std::size_t tets) { begun.push_back(tets); }});
   CHECK(adapted.reached);
+  CHECK_FALSE(adapted.stagnated);
+  CHECK(why_not_reached(adapted, {0.4, 5000}).empty());
   REQUIRE(adapted.meshes.size() > 3);
   CHECK(told == adapted.meshes.size());
   for (std::size_t k = 1; k < adapted.meshes.size(); ++k) {
@@ -150,8 +157,19 @@ TEST_CASE("no more tetrahedra are made than are allowed, and that is told") {
   const Scene scene = sagging();
   const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.01, 300}, {});
   CHECK(!adapted.reached);
+  CHECK_FALSE(adapted.stagnated);
+  CHECK(says(why_not_reached(adapted, {0.01, 300}), "1 % would need more than 300 tetrahedra"));
   CHECK(adapted.setup.mesh.tets.size() <= 300);
   CHECK(adapted.setup.mesh.tets.size() > 100);
+}
+
+TEST_CASE("refinement about a body's only node of support ends, since its error does not fall, and that is told") {
+  const Scene scene = sagging(R"({"boundary": [{"nodes": [0], "fix": true}], "loads": []})");
+  const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.1, 50000}, {});
+  CHECK(!adapted.reached);
+  CHECK(adapted.stagnated);
+  CHECK(adapted.meshes.size() < 25);
+  CHECK(says(why_not_reached(adapted, {0.1, 50000}), {"the error has hardly fallen", "single nodes"}));
 }
 
 TEST_CASE("a finer mesh constrains the midpoints between constrained nodes") {

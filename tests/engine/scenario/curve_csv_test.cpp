@@ -41,6 +41,7 @@ TEST_CASE("reads two columns under the header of the test") {
   const MeasuredCurve data = read("# pulled by hand\nstretch,stress\r\n 1.1 , 100\n\n1.2,\t2.5e2\n");
   CHECK(data.amount == std::vector<double>{1.1, 1.2});
   CHECK(data.stress == std::vector<double>{100, 250});
+  CHECK(read("\xEF\xBB\xBFstretch,stress\n1.1,100\n").stress == std::vector<double>{100});
   CHECK(read("gamma,stress\n-0.1,-5", BenchTest::shear).amount == std::vector<double>{-0.1});
   CHECK(read("time,stress\n0,5\n1,4", Relaxation{}).stress == std::vector<double>{5, 4});
 }

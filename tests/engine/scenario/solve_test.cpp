@@ -248,7 +248,7 @@ TEST_CASE("tells of events that a static scene leaves out, and of a force on nod
     return std::any_of(warnings.texts().begin(), warnings.texts().end(),
                        [&](const std::string& text) { return text.find(words) != std::string::npos; });
   };
-  CHECK(tells("1 of 2 events are left out"));
+  CHECK(tells("scene.json: 1 of 2 events are left out"));
   CHECK(tells("loads[0]: 1 of its 2 nodes belong to no element"));
 }
 
@@ -265,6 +265,26 @@ TEST_CASE("tells of given steps that backward Euler takes where another method's
   REQUIRE(warnings.texts().size() == 1);
   CHECK(warnings.texts()[0].find("of 40 steps did not converge by tr_bdf2; backward Euler took them") !=
         std::string::npos);
+}
+
+TEST_CASE("tells once of written states with inverted elements, and of none in a run without them") {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& patch) {
+    Json scene = test::small_scene();  // stvk, which has energy at J <= 0 too
+    scene.merge_patch(Json::parse(R"({"mesh": {"box": {"cells": [1, 1, 1]}},
+      "outputs": {"times": [0, 0.02, 0.04]}, "solver": {"duration": 0.04}})"));
+    scene.merge_patch(Json::parse(patch));
+    const WarningCollector warnings;
+    CHECK_FALSE(solve(parse_scene(scene.dump(), "box.json"), folder / "").halt);
+    return warnings.texts();
+  };
+  const std::vector<std::string> moved = told(R"({"boundary": [{"box": [[0, -1, -1], [0, 1, 1]], "fix": true},
+    {"box": [[0.2, -1, -1], [1, 1, 1]], "translate": [-0.3, 0, 0]}]})");
+  REQUIRE(moved.size() == 1);
+  CHECK(says(moved[0], {"box.json: positions_0: 5 of 5 elements are inverted or flat (J ≤ 0)", "with J = -0.5",
+                        "so have 3 of the states after it"}));
+  CHECK(report_in(folder)["inverted"] == 5);
+  CHECK(told(R"({"gravity": [0, -1, 0]})").empty());
 }
 
 TEST_CASE("refuses an output folder that is a file") {
