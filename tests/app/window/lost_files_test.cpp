@@ -8,6 +8,8 @@
 #include <heml/scenario/load_mesh.hpp>
 #include <string>
 
+#include "workplace.hpp"
+
 namespace heml::lost_files_test {
 
 using namespace heml::window;
@@ -16,32 +18,18 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A working folder in a home, with a scene of a mesh file, that is opened by a relative path.
-struct Workplace {
-  fs::path before = fs::current_path(), home, path;
-  std::string home_before = std::getenv("HOME") ? std::getenv("HOME") : "";
-  Workplace() {
-    std::string name = (fs::temp_directory_path() / "heml-lost-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()));
-    home = name;
-    path = home / "work";
-    fs::create_directory(path);
-    fs::current_path(path);
-    setenv("HOME", home.c_str(), 1);
+struct SceneInWorkplace : test::Workplace {
+  SceneInWorkplace() {
     write_tet_mesh("body.msh", make_box(Vec3(0.1, 0.1, 0.1), {2, 1, 1}));
     std::ofstream("scene.json") << R"({"schema_version": 1, "name": "bar",
       "mesh": {"file": "body.msh", "scale": 2}, "materials": [{"law": "stvk", "young": 1e4, "poisson": 0.3}]})";
-  }
-  ~Workplace() {
-    fs::current_path(before);
-    setenv("HOME", home_before.c_str(), 1);
-    fs::remove_all(home);
   }
 };
 
 }  // namespace
 
 TEST_CASE("a scene whose files are there is saved as it is") {
-  const Workplace workplace;
+  const SceneInWorkplace workplace;
   Scene scene = read_scene("scene.json");
   hold_files(scene);
   CHECK(scene.mesh.file == workplace.path / "body.msh");
@@ -50,7 +38,7 @@ TEST_CASE("a scene whose files are there is saved as it is") {
 }
 
 TEST_CASE("a scene whose folder is gone is saved with its mesh") {
-  const Workplace workplace;
+  const SceneInWorkplace workplace;
   Scene scene = read_scene("scene.json");
   hold_files(scene);
   const TetMesh before = load_mesh(scene);
@@ -66,7 +54,7 @@ TEST_CASE("a scene whose folder is gone is saved with its mesh") {
 }
 
 TEST_CASE("what cannot be written again is named") {
-  const Workplace workplace;
+  const SceneInWorkplace workplace;
   Scene scene = read_scene("scene.json");
   scene.solver.quadratic = true;  // the file may have nodes on edges
   scene.initial_positions = "positions.csv";

@@ -6,32 +6,15 @@
 #include <fstream>
 #include <string>
 
+#include "workplace.hpp"
+
 namespace heml::saved_file_names_test {
 
+using test::Workplace;
 using window::unused_path;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A temporary working directory with a home beside it.
-struct Workplace {
-  fs::path before = fs::current_path(), home, path;
-  std::string home_before = std::getenv("HOME") ? std::getenv("HOME") : "";
-  Workplace() {
-    std::string name = (fs::temp_directory_path() / "heml-names-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()));
-    home = name;
-    path = home / "work";
-    fs::create_directory(path);
-    fs::current_path(path);
-    setenv("HOME", home.c_str(), 1);
-  }
-  ~Workplace() {
-    fs::current_path(before);
-    setenv("HOME", home_before.c_str(), 1);
-    fs::remove_all(home);
-  }
-};
 
 /// What stands for a name in the path of a file.
 std::string stem_of(const std::string& name) {
