@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/math/bytes.hpp>
+#include <heml/mesh/connected_parts.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/tools/contact_skin.hpp>
 #include <tuple>
@@ -21,6 +22,7 @@ Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).c
 
 ContactSkin::ContactSkin(const TetMesh& mesh) {
   set_rest(mesh);
+  find_bodies(mesh);
   make_edges();
   nodes_now_.resize(nodes_.size());
   faces_now_.resize(faces_.size());
@@ -51,6 +53,20 @@ void ContactSkin::set_rest(const TetMesh& mesh) {
   std::vector<int> next(start_.begin(), start_.end() - 1);
   for (std::size_t f = 0; f < faces_.size(); ++f)
     for (const int n : faces_[f]) round_[at(next[at(n)]++)] = static_cast<int>(f);
+}
+
+void ContactSkin::find_bodies(const TetMesh& mesh) {
+  const std::vector<int> part = connected_parts(mesh, {});
+  std::vector<int> number(mesh.nodes.size(), -1);  // of the body whose part has that name
+  for (const int n : nodes_) {
+    int& body = number[at(part[at(n)])];
+    if (body < 0) {
+      body = static_cast<int>(bodies_.size());
+      bodies_.emplace_back();
+    }
+    bodies_[at(body)].push_back(static_cast<int>(body_.size()));
+    body_.push_back(body);
+  }
 }
 
 void ContactSkin::make_edges() {
@@ -216,7 +232,7 @@ int ContactSkin::side(int first, int second) {
 }
 
 std::size_t ContactSkin::bytes() const {
-  return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
+  return bytes_of(nodes_, body_, bodies_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
          bytes_of(nodes_now_, faces_now_, edges_now_, x_);
 }
 

@@ -30,6 +30,10 @@ class ContactSkin {
   /// Of a face: nodes, and edges, that no earlier face has; unused: −1.
   const Triangle& own_nodes(int face) const { return own_nodes_[static_cast<std::size_t>(face)]; }
   const Triangle& own_edges(int face) const { return own_edges_[static_cast<std::size_t>(face)]; }
+  /// The body that a node is of, from 0: what shares no node with the rest of the mesh; how many there are; and the
+  /// nodes of each, ascending.
+  int body_of(int node) const { return body_[static_cast<std::size_t>(node)]; }
+  const std::vector<std::vector<int>>& bodies() const { return bodies_; }
   int index_of(int node) const;          ///< node: internal number, of nodes()
   int edge_between(int a, int b) const;  ///< a < b: ends of an edge
   Vec3 rest_normal(int face) const;
@@ -70,12 +74,14 @@ class ContactSkin {
     bool is_ridge;
   };
   void set_rest(const TetMesh& mesh);
+  void find_bodies(const TetMesh& mesh);
   void make_edges();
   const NodeNow& node_now(int node);
   const FaceNow& face_now(int face);
 
   double mean_edge_ = 0;
-  std::vector<int> nodes_;
+  std::vector<int> nodes_, body_;
+  std::vector<std::vector<int>> bodies_;
   Positions rest_, x_;
   std::vector<Triangle> faces_;
   std::vector<int> apex_;

@@ -31,26 +31,36 @@ void SelfContact::find(const std::vector<ContactPair>& held) {
   const auto is_finite = [](const Positions& places) {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
-  if (!is_finite(skin_.x()) || !is_finite(to_)) return;  // the step detects the failure itself
+  if (to_.empty() || !is_finite(skin_.x()) || !is_finite(to_)) return;  // the step detects the failure itself
   find_contacts();
   add_held(held);
 }
 
 /// Finds the contacts among the candidates that serve this step.
 void SelfContact::find_contacts() {
-  double moved = std::max(spread(filtered_.reference, skin_.x()), spread(filtered_.reference, to_));
-  if (!(moved <= filtered_.allowance) || woken_steps_ > lasting) {
-    moved = spread(skin_.x(), to_);
+  if (const auto moved = travel_awake()) return test(awake_, reach_of(*moved));
+  ContactTravel moved = travelled(filtered_.reference);
+  moved.extend(travel_between(skin_, filtered_.reference, to_));
+  if (!moved.is_within(filtered_.allowance) || woken_steps_ > lasting) {
+    moved = travel_between(skin_, skin_.x(), to_);
     if (is_long(moved)) {
       if (!is_swept()) sweep();
       return test(swept_.candidates, 0);
     }
-    update_candidates();
+    update_candidates(moved);
   }
-  const double reach = reach_of(moved);
-  if (!(reach <= awake_reach_ && spread(woken_.reference, skin_.x()) <= woken_.allowance)) wake_candidates(moved);
-  ++woken_steps_;
-  test(awake_, reach);
+  wake_candidates(moved);
+  test(awake_, reach_of(moved.largest()));
+}
+
+/// How far nodes have moved since the filter, m, where the awake candidates serve this step.
+std::optional<double> SelfContact::travel_awake() {
+  if (++woken_steps_ > lasting) return std::nullopt;
+  const auto before = travel_within(skin_, filtered_.reference, skin_.x(), awake_travel_);
+  if (!before) return std::nullopt;
+  const auto after = travel_within(skin_, filtered_.reference, to_, awake_travel_);
+  if (!after || !travel_within(skin_, woken_.reference, skin_.x(), woken_.allowance)) return std::nullopt;
+  return std::max(*before, *after);
 }
 
 void SelfContact::test(const std::vector<AwakeCandidate>& candidates, double reach) {
@@ -177,7 +187,9 @@ bool SelfContact::is_out_of_both(const Candidate& candidate, const std::array<Ve
 
 std::size_t SelfContact::bytes() const {
   return skin_.bytes() + bytes_of(to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_) +
-         bytes_of(awake_, woken_.reference, swept_.from, swept_.boxes, swept_.candidates, contacts_, points_);
+         bytes_of(awake_, woken_.reference, swept_.from, swept_.boxes, swept_.candidates, contacts_, points_) +
+         bytes_of(searched_.allowance.of_node, filtered_.allowance.of_node, woken_.allowance.of_node,
+                  awake_travel_.of_node);
 }
 
 }  // namespace heml

@@ -19,7 +19,8 @@
 //   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► wake, filter, or broad phase;
 //                  sweep where one step alone moves them further than a filter may allow
 //                  candidates awake that the motion since the filter brings within reach ──► contacts: those that
-//                  touch between from and to
+//                  touch between from and to. Allowances are of each node, by its own speed: where a hand lets go of
+//                  one end, the rest hardly moves
 //   broad phase    faces whose boxes, enlarged by the allowance, intersect ──► broad candidates, in the order of nodes
 //   sweep          faces whose boxes from start to end, with the element behind, intersect ──► candidates valid for
 //                  this start: a falling body reaches far ahead, but not to its sides
@@ -32,7 +33,7 @@
 #include <Eigen/Geometry>
 #include <compare>
 #include <heml/tools/contact_pair.hpp>
-#include <heml/tools/contact_skin.hpp>
+#include <heml/tools/contact_travel.hpp>
 #include <heml/tools/settings.hpp>
 
 namespace heml {
@@ -90,8 +91,8 @@ class SelfContact {
   };
   /// Reference positions, and how far nodes may move from them before the candidates must be found again.
   struct CandidateSet {
-    Positions reference;   ///< m; empty: none yet
-    double allowance = 0;  ///< m
+    Positions reference;  ///< m; empty: none yet
+    ContactTravel allowance;
   };
   /// Of a long step: where its nodes are on their way, in the frame of their mean motion.
   struct Sweep {
@@ -105,6 +106,7 @@ class SelfContact {
 
   void find(const std::vector<ContactPair>& held);
   void find_contacts();
+  std::optional<double> travel_awake();
   void test(const std::vector<AwakeCandidate>& candidates, double reach);
   void add_held(const std::vector<ContactPair>& held);
   std::array<int, 4> nodes_of(const Candidate& candidate) const;
@@ -117,21 +119,22 @@ class SelfContact {
                       double margin);
 
   // self_contact_search.cpp
-  double spread(const Positions& reference, const Positions& x) const;
-  double reach_of(double allowance) const;
-  bool is_long(double step) const;
-  void update_candidates();
-  void broad_phase(double step);
+  ContactTravel travelled(const Positions& reference) const { return travel_between(skin_, reference, skin_.x()); }
+  ContactTravel allowance(const ContactTravel& step, double steps, double least, double most) const;
+  double reach_of(double travel) const;
+  bool is_long(const ContactTravel& step) const;
+  void update_candidates(const ContactTravel& step);
+  void broad_phase(const ContactTravel& step);
   void sweep();
   bool is_swept() const;
-  void filter_candidates(double step);
-  void wake_candidates(double moved);
+  void filter_candidates(const ContactTravel& step);
+  void wake_candidates(const ContactTravel& moved);
   double squared_distance(const Candidate& candidate) const;
   template <class BoxOfNode>
   std::vector<Eigen::AlignedBox3d> face_boxes(const BoxOfNode& box_of) const;
   template <class IsNear>
-  void collect(const std::vector<Eigen::AlignedBox3d>& boxes, std::vector<Candidate>& candidates,
-               const IsNear& is_near);
+  void collect(const std::vector<std::pair<int, int>>& faces, std::vector<Candidate>& candidates,
+               const IsNear& is_near) const;
   bool overlaps_at_rest(const Candidate& candidate) const;
   Answer can_meet_within(const Candidate& candidate, double allowance);
   bool is_outside_within(const AwakeCandidate& awake, double allowance) const;
@@ -143,11 +146,12 @@ class SelfContact {
   CandidateSet searched_, filtered_;
   Sweep swept_;
   CandidateSet woken_;                       ///< of awake_, for positions at a step's start
-  double awake_reach_ = 0;                   ///< m, of awake_
+  double still_ = 0;                         ///< m, least allowance of woken_
+  ContactTravel awake_travel_;               ///< since the filter, for which awake_ serves; none: must be made
   int woken_steps_ = 0;                      ///< since awake_ was made
   std::vector<Candidate> broad_candidates_;  ///< valid within searched_
   std::vector<NearCandidate> candidates_;    ///< the subset valid within filtered_, ascending
-  std::vector<AwakeCandidate> awake_;        ///< and of these, valid within awake_reach_, in the order of pairs
+  std::vector<AwakeCandidate> awake_;        ///< and of these, valid within awake_travel_, in the order of pairs
   std::vector<ContactPair> contacts_;
   std::vector<ContactPoint> points_;  ///< of contacts_
   long broad_phase_count_ = 0, filter_count_ = 0, sweep_count_ = 0, tested_count_ = 0;

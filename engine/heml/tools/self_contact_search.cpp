@@ -16,6 +16,8 @@ constexpr double beside_way = 0.15;                         // of an edge: how f
 constexpr double min_woken = 1e-4, max_woken = 0.05;        // of an edge
 constexpr int brief = 32;                                   // steps: candidates awake for less are given more room
 constexpr double search_steps = 16, filter_steps = 8;       // as long as this one: for which candidates are found
+constexpr double wake_steps = 4;                            // and stay awake
+constexpr double struck = 0.25;                             // of what the fastest node may move: each may
 constexpr double same_overlap = 1e-6;                       // of an edge: smaller overlaps at rest are round-off
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
@@ -47,46 +49,63 @@ void sort_by_pairs(Candidates& candidates) {
 
 }  // namespace
 
-/// Largest displacement of a node from the reference, less the mean displacement, m. Infinite without a reference.
-double SelfContact::spread(const Positions& reference, const Positions& x) const {
-  if (reference.size() != x.size()) return std::numeric_limits<double>::infinity();
-  const Vec3 mean = mean_displacement(reference, x);
-  double max_square = 0;
-  for (std::size_t n = 0; n < x.size(); ++n)
-    max_square = std::max(max_square, (x[n] - reference[n] - mean).squaredNorm());
-  return std::sqrt(max_square);
+/// For some steps like this one; least, most: of an edge. What is slow may be struck by what is fast.
+auto SelfContact::allowance(const ContactTravel& step, double steps, double least, double most) const -> ContactTravel {
+  const auto allowed = [&](double one_step, double at_least) {
+    return std::max(1.5 * one_step, std::clamp(steps * one_step, at_least, most * edge_));
+  };
+  ContactTravel result;
+  const double fastest = *std::max_element(step.of_node.begin(), step.of_node.end());
+  const double floor = std::clamp(struck * steps * fastest, least * edge_, most * edge_);
+  for (const double one_step : step.of_node) result.of_node.push_back(allowed(one_step, floor));
+  if (skin_.bodies().size() > 1) result.of_bodies = allowed(step.of_bodies, struck * least * edge_);
+  return result;
 }
 
-/// Whether a step (m) is so long that the filter would hold for it alone.
-bool SelfContact::is_long(double step) const { return 1.5 * step > max_filtered * edge_ && std::isfinite(step); }
+/// Whether a step is so long that the filter would hold for it alone.
+bool SelfContact::is_long(const ContactTravel& step) const {
+  return 1.5 * step.largest() > max_filtered * edge_ && std::isfinite(step.largest());
+}
 
 /// Filters the broad candidates, or finds them again where this step leaves what they are valid for. The filter's
 /// allowance ends where that of the broad phase does, so find() need not check both.
-void SelfContact::update_candidates() {
-  const double step = spread(skin_.x(), to_);
-  if (!std::isfinite(step)) {  // of a body about to leave the range of numbers, which meets nothing on its way
+void SelfContact::update_candidates(const ContactTravel& step) {
+  if (!std::isfinite(step.largest())) {  // of a body about to leave the range of numbers: it meets nothing on its way
     candidates_.clear();
     filtered_ = {};
-    awake_reach_ = 0;
+    awake_travel_ = {};
     return;
   }
-  if (!(spread(searched_.reference, skin_.x()) + 1.5 * step <= searched_.allowance)) broad_phase(step);
+  ContactTravel ahead = travelled(searched_.reference);
+  if (!ahead.of_node.empty()) ahead.add(step, 1.5);
+  if (!ahead.is_within(searched_.allowance)) broad_phase(step);
   filter_candidates(step);
 }
 
-/// Distance (m) within which pairs can touch while each node moves by at most `allowance`.
-double SelfContact::reach_of(double allowance) const { return 2 * allowance + (touch_gap + 4 * slack) * edge_; }
+/// Distance (m) within which pairs can touch that may move against each other by twice `travel`.
+double SelfContact::reach_of(double travel) const { return 2 * travel + (touch_gap + 4 * slack) * edge_; }
 
-void SelfContact::broad_phase(double step) {
+void SelfContact::broad_phase(const ContactTravel& step) {
   ++broad_phase_count_;
-  searched_.reference = skin_.x();
-  searched_.allowance =
-      std::max(1.5 * step, std::clamp(search_steps * step, min_allowance * edge_, max_allowance * edge_));
-  const double reach = reach_of(searched_.allowance);
-  const std::vector<Eigen::AlignedBox3d> boxes =
-      face_boxes([&](int n) { return around(Eigen::AlignedBox3d(skin_.x()[at(n)]), reach / 2); });
-  collect(boxes, broad_candidates_,
-          [&](const Candidate& candidate) { return squared_distance(candidate) <= reach * reach; });
+  searched_ = {skin_.x(), allowance(step, search_steps, min_allowance, max_allowance)};
+  std::vector<int> body_of_face;
+  for (const Triangle& face : skin_.faces()) body_of_face.push_back(skin_.body_of(face[0]));
+  const auto box_of = [this](int n) {
+    return around(Eigen::AlignedBox3d(skin_.x()[at(n)]), reach_of(searched_.allowance.of_node[at(n)]) / 2);
+  };
+  const std::vector<Eigen::AlignedBox3d> of_faces = face_boxes(box_of);
+  std::vector<Eigen::AlignedBox3d> of_edges;
+  for (const auto& edge : skin_.edges()) of_edges.push_back(box_of(edge.ends[0]).merged(box_of(edge.ends[1])));
+  const double of_bodies = searched_.allowance.of_bodies;
+  const auto faces = intersecting_pairs(of_faces, body_of_face, of_bodies);
+  collect(faces, broad_candidates_, [&](const Candidate& candidate) {
+    const auto& [edges, first, second] = candidate;
+    // Of most pairs of faces whose boxes intersect few nodes and edges do.
+    const Eigen::AlignedBox3d one = edges ? of_edges[at(first)] : box_of(first);
+    if (!are_near(one, edges ? of_edges[at(second)] : of_faces[at(second)], of_bodies)) return false;
+    const double reach = reach_of(searched_.allowance.of_pair(skin_, nodes_of(candidate), edges));
+    return squared_distance(candidate) <= reach * reach;
+  });
 }
 
 /// Collects the pairs of a step so long that the filter would hold for it alone: those that can meet, of nodes and
@@ -108,7 +127,7 @@ void SelfContact::sweep() {
     return box_of(a).merged(box_of(b)).intersects(boxes[at(one)].merged(boxes[at(two)]));
   };
   std::vector<Candidate> found;
-  collect(boxes, found, [&](const Candidate& candidate) {
+  collect(intersecting_pairs(boxes), found, [&](const Candidate& candidate) {
     const auto& [edges, first, second] = candidate;
     if (!can_meet(candidate)) return false;
     return edges ? is_near(first, second) && is_near(second, first) : box_of(first).intersects(boxes[at(second)]);
@@ -133,10 +152,10 @@ std::vector<Eigen::AlignedBox3d> SelfContact::face_boxes(const BoxOfNode& box_of
   return boxes;
 }
 
-/// Finds candidates among the faces whose boxes intersect, in the order of candidates.
+/// Finds candidates among pairs of faces, in the order of candidates.
 template <class IsNear>
-void SelfContact::collect(const std::vector<Eigen::AlignedBox3d>& boxes, std::vector<Candidate>& candidates,
-                          const IsNear& is_near) {
+void SelfContact::collect(const std::vector<std::pair<int, int>>& faces, std::vector<Candidate>& candidates,
+                          const IsNear& is_near) const {
   candidates.clear();
   const auto add = [&](const Candidate& candidate) {
     if (is_near(candidate) && !overlaps_at_rest(candidate)) candidates.push_back(candidate);
@@ -151,7 +170,7 @@ void SelfContact::collect(const std::vector<Eigen::AlignedBox3d>& boxes, std::ve
     const auto [c, d] = skin_.edges()[at(other)].ends;
     if (a != c && a != d && b != c && b != d) add({true, std::min(one, other), std::max(one, other)});
   };
-  for (const auto& [one, other] : intersecting_pairs(boxes)) {
+  for (const auto& [one, other] : faces) {
     for (const int n : skin_.own_nodes(one)) add_node(n, other);
     for (const int n : skin_.own_nodes(other)) add_node(n, one);
     for (const int e : skin_.own_edges(one))
@@ -196,13 +215,12 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
 
 /// Selects the near pairs that can touch while nodes move far less than the broad phase allows. Overlapping pairs
 /// stay, however deep.
-void SelfContact::filter_candidates(double step) {
+void SelfContact::filter_candidates(const ContactTravel& step) {
   ++filter_count_;
-  filtered_.reference = skin_.x();
-  filtered_.allowance =
-      std::min(searched_.allowance - spread(searched_.reference, skin_.x()),
-               std::max(1.5 * step, std::clamp(filter_steps * step, min_filtered * edge_, max_filtered * edge_)));
-  const double reach = reach_of(filtered_.allowance);
+  ContactTravel left = searched_.allowance;
+  left.add(travelled(searched_.reference), -1);
+  filtered_ = {skin_.x(), allowance(step, filter_steps, min_filtered, max_filtered)};
+  filtered_.allowance.reduce(left);
   candidates_.clear();
   for (const Candidate& candidate : broad_candidates_) {
     const double distance = std::sqrt(squared_distance(candidate));
@@ -210,34 +228,51 @@ void SelfContact::filter_candidates(double step) {
     const auto point = point_of(pair, [this](int n) { return skin_.x()[at(n)]; });
     const bool is_behind = point && point->gap < 0;
     const bool overlaps = is_behind && is_within(pair, *point, beside);
+    const double reach = reach_of(filtered_.allowance.of_pair(skin_, pair.nodes, candidate.edges));
     if (distance <= reach || overlaps) candidates_.push_back({is_behind ? 0 : distance, candidate});
   }
   std::sort(candidates_.begin(), candidates_.end());
-  awake_reach_ = 0;
+  awake_travel_ = {};
 }
 
 /// Selects the candidates within reach of little more than the motion so far, except those that positions near those
 /// of now rule out. Positions at a step's start may move by as much as makes this worth its time.
-void SelfContact::wake_candidates(double moved) {
-  awake_reach_ = reach_of(1.2 * moved);
-  double allowance = std::max(woken_.allowance, min_woken * edge_);
-  if (woken_steps_ < brief) allowance = std::min(2 * allowance, max_woken * edge_);
-  if (woken_steps_ > lasting) allowance = std::max(allowance / 4, min_woken * edge_);
-  woken_ = {skin_.x(), allowance};
+void SelfContact::wake_candidates(const ContactTravel& moved) {
+  // A step as those since the last time. Where the next one would end says less: contact will hold it back.
+  ContactTravel step{std::vector<double>(moved.of_node.size(), 0), 0};
+  if (!woken_.reference.empty()) step.add(travelled(woken_.reference), 1.0 / std::max(1, woken_steps_));
+  still_ = std::max(still_, min_woken * edge_);
+  if (woken_steps_ < brief) still_ = std::min(2 * still_, max_woken * edge_);
+  if (woken_steps_ > lasting) still_ = std::max(still_ / 4, min_woken * edge_);
   woken_steps_ = 0;
-  // Of starts and ends, from the start.
-  const double all_motion = allowance + 1.2 * moved + spread(filtered_.reference, skin_.x());
+  awake_travel_ = moved;
+  awake_travel_.add(moved, 0.2);
+  awake_travel_.add(step, wake_steps);
+  const double least = std::max(struck * moved.largest(), still_);
+  for (double& one : awake_travel_.of_node) one = std::max(one, least);
+  awake_travel_.of_bodies = std::max(awake_travel_.of_bodies, still_);
+  if (!filtered_.reference.empty()) awake_travel_.reduce(filtered_.allowance);
+  woken_ = {skin_.x(), allowance(step, wake_steps, still_ / edge_, max_allowance)};
+  woken_.allowance.of_bodies = std::max(woken_.allowance.of_bodies, still_);
+  ContactTravel all = travelled(filtered_.reference);  // of starts and ends, from the start
+  if (!all.of_node.empty()) all.add(awake_travel_), all.add(woken_.allowance);
+  const ContactTravel of_surface{with_neighbours(skin_, woken_.allowance.of_node),
+                                 0};  // bodies apart ask nothing of it
+  const double farthest = reach_of(awake_travel_.largest());
   awake_.clear();
   for (const auto& [distance, candidate] : candidates_) {
-    if (distance > awake_reach_) break;
-    const Answer answer = can_meet_within(candidate, allowance);
-    const AwakeCandidate awake{distance, nodes_of(candidate), candidate, answer == Answer::yes};
-    if (answer != Answer::no && !is_outside_within(awake, all_motion)) awake_.push_back(awake);
+    if (distance > farthest) break;
+    const std::array<int, 4> nodes = nodes_of(candidate);
+    if (distance > reach_of(awake_travel_.of_pair(skin_, nodes, candidate.edges))) continue;
+    const Answer answer = can_meet_within(candidate, of_surface.of_each(skin_, nodes));
+    const AwakeCandidate awake{distance, nodes, candidate, answer == Answer::yes};
+    if (answer != Answer::no && !is_outside_within(awake, all.of_each(skin_, nodes))) awake_.push_back(awake);
   }
   sort_by_pairs(awake_);
 }
 
-/// What can_meet() says at all positions within `allowance` (m) of the start, each by its mean displacement at most.
+/// What can_meet() says at all positions within `allowance` (m) of the start, about the mean of each body: it asks how
+/// the surface of each lies, not how far they are apart.
 auto SelfContact::can_meet_within(const Candidate& candidate, double allowance) -> Answer {
   if (!candidate.edges) return skin_.is_facing_within(candidate.first, candidate.second, allowance);
   const Answer one = skin_.is_ridge_within(candidate.first, allowance);

@@ -35,6 +35,22 @@ TEST_CASE("pairs of boxes: those that a search of all pairs finds, each once, wh
       if (boxes[a].intersects(boxes[b])) expected.emplace_back(static_cast<int>(a), static_cast<int>(b));
   CHECK(expected.size() > 300);
   CHECK(sorted(intersecting_pairs(boxes)) == expected);
+
+  // Of three groups, the second of one box, the last a gap away in numbers; boxes of different ones are widened.
+  const double margin = 0.05;
+  std::vector<int> group;
+  for (std::size_t k = 0; k < boxes.size(); ++k) group.push_back(k == 7 ? 1 : k % 3 == 0 ? 4 : 0);
+  Pairs of_groups;
+  const auto widened = [&](std::size_t k) {
+    const Eigen::Vector3d more = Eigen::Vector3d::Constant(margin);
+    return Box(boxes[k].min() - more, boxes[k].max() + more);
+  };
+  for (std::size_t a = 0; a < boxes.size(); ++a)
+    for (std::size_t b = a + 1; b < boxes.size(); ++b)
+      if (group[a] == group[b] ? boxes[a].intersects(boxes[b]) : widened(a).intersects(widened(b)))
+        of_groups.emplace_back(static_cast<int>(a), static_cast<int>(b));
+  CHECK(of_groups.size() > expected.size());
+  CHECK(sorted(intersecting_pairs(boxes, group, margin)) == of_groups);
 }
 
 TEST_CASE("pairs of boxes: boxes that touch are a pair, one box alone or none has none") {
