@@ -159,8 +159,8 @@ class ElasticBody {
   /// Upper bound of the largest eigenvalue of M⁻¹D (1/s), D the viscous damping matrix at x.
   Real damping_bound(const Real* x, ThreadTeam& team);
   /// The same `steps` after their last evaluation with the same `nodes`, at those alone that may have the largest
-  /// since.
-  Real frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps);
+  /// since; where that is below `bearable` (1/s²), it may be the one of an earlier state.
+  Real frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps, Real bearable = 0);
   Real damping_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps);
   /// Which element adds most to the bound at a node in the last evaluation of all nodes, inner number, and how large
   /// its part of it is, to 1; −1 if no element adds anything.
@@ -364,8 +364,8 @@ class ElasticBody {
   Real meshed_volume(const ElementGroup<Real>& group, std::size_t s) const;
   std::vector<double> point_masses() const;
   template <class Bound>
-  Real max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, const Bound& bound);
-  Real inner_frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps);
+  Real max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, Real bearable, const Bound& bound);
+  Real inner_frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps, Real bearable = 0);
   void need_step_weights(ThreadTeam& team);
   std::shared_ptr<StepWeights<Real>> step_weights(ThreadTeam& team) const;
   /// Of the nodes of the elements inside; null: virtual corners.

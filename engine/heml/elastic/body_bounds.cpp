@@ -10,9 +10,10 @@ namespace heml {
 /// begin, end, bounds) writes those of the slots of packets, 8 a packet.
 template <class Real>
 template <class Bound>
-Real ElasticBody<Real>::max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, const Bound& bound) {
+Real ElasticBody<Real>::max_at_nodes(ThreadTeam& team, NodeBounds<Real>& nodes, int steps, Real bearable,
+                                     const Bound& bound) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
-  nodes.begin(this->nodes(), steps);
+  nodes.begin(this->nodes(), steps, bearable);
   find_packets(nodes.due());
   weighted_bound_.resize(layout_->bounded_elements());
   std::size_t first = 0;
@@ -170,25 +171,28 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
 }
 
 template <class Real>
-Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps) {
+Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps,
+                                        Real bearable) {
   need_step_weights(team);
-  return inner_frequency_bound(inner_positions(x, team), team, nodes, steps);
+  return inner_frequency_bound(inner_positions(x, team), team, nodes, steps, bearable);
 }
 
 /// x: of virtual corners, if the elements are quadratic.
 template <class Real>
-Real ElasticBody<Real>::inner_frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps) {
+Real ElasticBody<Real>::inner_frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps,
+                                              Real bearable) {
   if (pressure_) pressure_->begin_bounds(x, team);
-  Real bound = max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
-    const Part& part = parts_[g];
-    const Real* weights = corner_weights();
-    std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
-    for (const auto& term : part.terms) term->frequency_bounds(*part.group, weights, x, begin, end, bounds, true);
-    if (pressure_) pressure_->add_frequency_bounds(g, weights, x, begin, end, bounds);
-    if (part.dilatation)
-      part.dilatation->add_frequency_bounds(*part.group, *layout_->virtual_corners, *step_weights_, x, begin, end,
-                                            bounds);
-  });
+  Real bound =
+      max_at_nodes(team, nodes, steps, bearable, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
+        const Part& part = parts_[g];
+        const Real* weights = corner_weights();
+        std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
+        for (const auto& term : part.terms) term->frequency_bounds(*part.group, weights, x, begin, end, bounds, true);
+        if (pressure_) pressure_->add_frequency_bounds(g, weights, x, begin, end, bounds);
+        if (part.dilatation)
+          part.dilatation->add_frequency_bounds(*part.group, *layout_->virtual_corners, *step_weights_, x, begin, end,
+                                                bounds);
+      });
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   bound += fans_.state_bound(fan_slots());
   if (!layout_->joints.springs.empty()) bound += layout_->joints.springs.frequency_bound(masses());
@@ -200,17 +204,18 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team, NodeBound
   if (!has_internal_state()) return 0;
   need_step_weights(team);
   x = inner_positions(x, team);
-  return max_at_nodes(team, nodes, steps, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
-    std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
-    for (const auto& term : parts_[g].terms)
-      term->damping_bounds(*parts_[g].group, corner_weights(), x, begin, end, bounds, true);
-  });
+  return max_at_nodes(team, nodes, steps, Real(0),
+                      [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
+                        std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
+                        for (const auto& term : parts_[g].terms)
+                          term->damping_bounds(*parts_[g].group, corner_weights(), x, begin, end, bounds, true);
+                      });
 }
 
 template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&);
-template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&, NodeBounds<float>&, int);
+template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&, NodeBounds<float>&, int, float);
 template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&);
-template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&, NodeBounds<double>&, int);
+template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&, NodeBounds<double>&, int, double);
 template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&);
 template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&, NodeBounds<float>&, int);
 template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&);

@@ -12,7 +12,7 @@ void NodeBounds<Real>::forget() {
 }
 
 template <class Real>
-void NodeBounds<Real>::begin(std::size_t nodes, int steps) {
+void NodeBounds<Real>::begin(std::size_t nodes, int steps, Real bearable) {
   if (bound_.size() != nodes) forget();
   if (known_ == Known::nothing) {
     bound_.resize(nodes);
@@ -38,8 +38,9 @@ void NodeBounds<Real>::begin(std::size_t nodes, int steps) {
     const bool is_watched = next_watched < watched_.size() && watched_[next_watched] == static_cast<int>(n);
     if (is_watched) ++next_watched;
     const Real growth = std::max(growth_[n / neighbourhood], fastest * static_cast<Real>(elsewhere));
-    const bool may_be_largest = !(2 * static_cast<Real>(age) * growth < largest_ - bound_[n]);
-    if (known_ == Known::bounds || is_watched || age == max_age || may_be_largest) due_.push_back(static_cast<int>(n));
+    const Real room = std::max(largest_, bearable) - bound_[n];
+    const bool may_matter = !(2 * static_cast<Real>(age) * growth < room) || bound_[n] == largest_;
+    if (known_ == Known::bounds || is_watched || age == max_age || may_matter) due_.push_back(static_cast<int>(n));
   }
 }
 

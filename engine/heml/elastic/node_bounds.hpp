@@ -6,9 +6,10 @@
 //   age:     |  14 |   2 |   6 |  30 | ... steps since it was evaluated
 //   growth:  |        0.02     |       ... a step, one a neighbourhood
 //
-// A node whose bound was far below the maximum cannot have reached it since: only those that may have are evaluated
-// again, with all elements round them. A node is due
-// - where 2 · age · growth ≥ largest − bound, so always the largest; growth:
+// A node whose bound was far below the maximum, or below what the present step bears, cannot have reached it since:
+// only those that may have are evaluated again, with all elements round them. A node is due
+// - where it has the largest bound;
+// - where 2 · age · growth ≥ max(largest, bearable) − bound; growth:
 //   the fastest that a bound was seen to grow, a step, among the neighbours in inner order, or a quarter of the fastest
 //   elsewhere, from where waves take some steps;
 // - at max_age;
@@ -33,7 +34,8 @@ class NodeBounds {
   void watch(std::vector<int> nodes) { watched_ = std::move(nodes); }
 
   /// Begins an evaluation `steps` after the last one. nodes: how many there are; another number than before: forget().
-  void begin(std::size_t nodes, int steps);
+  /// bearable: the bound up to which no node matters; 0: all below the largest do.
+  void begin(std::size_t nodes, int steps, Real bearable = 0);
   /// Those to evaluate, ascending.
   const std::vector<int>& due() const { return due_; }
   /// The bound of a due node, once each. Threads: any, each its own nodes.

@@ -32,6 +32,7 @@ namespace heml {
 /// The longest stable step of explicit methods, and when to evaluate it again (stable_step.hpp).
 struct StepLimit {
   double stable = 0;          ///< s, safety factor included
+  double found = 0;           ///< s, at the last evaluation; stable follows it down at once, up slowly
   double at_start = 0;        ///< s, at the start or the last Reset
   int steps_since_bound = 0;  ///< steps since the frequency bound was evaluated
   int interval = 0;           ///< steps until it is evaluated again

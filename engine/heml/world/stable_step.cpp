@@ -14,7 +14,8 @@ constexpr double safety_of_shreds = 0.5;
 // The limit oscillates with a body that is crushed, lands, or hangs by a corner. Steps that grow in that rhythm feed
 // the oscillation.
 constexpr double growth_of_steps = 0.001;  // per step, at most
-// The bound is evaluated again when it may have changed by this much, judged by how fast it changed last time.
+// The bound is evaluated again when the limit may be this much below the step in use, judged by how fast it changed
+// last time.
 constexpr double change_between_bounds = 0.02;
 constexpr double steps_between_bounds_when_calm = 32;  // at most: its cost is then negligible
 constexpr int steps_between_bounds_at_first = 8;
@@ -65,15 +66,14 @@ void forget_bounds(Simulation<Real>& s) {
   s.damping_bounds.forget();
 }
 
-/// Evaluates the bounds, of all elements that may have the largest, and sets limit.stable.
+/// The stable step (s) from the bounds of all elements that may allow less than `longest` (s; 0: unknown).
 template <class Real>
-void evaluate_bounds(Simulation<Real>& s) {
+double evaluate_bounds(Simulation<Real>& s, double longest) {
   ElasticBody<Real>& body = s.acting_body();
   const int steps = s.limit.steps_since_bound;
-  double lambda = static_cast<double>(body.frequency_bound(s.state.x.data(), s.team, s.frequency_bounds, steps));
-  double omega = 0;
+  double omega = 0, of_hands = 0;
   for (const auto& grasp : s.grasps) {  // hands may hold the same node: all that pulls at one
-    lambda += static_cast<double>(grasp.omega()) * static_cast<double>(grasp.omega());
+    of_hands += static_cast<double>(grasp.omega()) * static_cast<double>(grasp.omega());
     omega += static_cast<double>(grasp.omega());
   }
   const double half =
@@ -84,8 +84,12 @@ void evaluate_bounds(Simulation<Real>& s) {
                                [](const EditReport& edit) { return edit.split > 0 || edit.removed > 0; });
   const bool torn = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.torn > 0; });
   const double part = torn ? safety_of_shreds : cut ? safety_of_pieces : safety;
-  s.limit.stable = part * 2 / (half + std::sqrt(half * half + lambda));
+  const double rate = 2 * part / longest;  // what follows inverted, for the bound that `longest` bears
+  const auto bearable = static_cast<Real>(longest > 0 ? rate * rate - 2 * rate * half - of_hands : 0);
+  const double lambda = of_hands + static_cast<double>(body.frequency_bound(s.state.x.data(), s.team,
+                                                                            s.frequency_bounds, steps, bearable));
   s.limit.steps_since_bound = 0;
+  return part * 2 / (half + std::sqrt(half * half + lambda));
 }
 }  // namespace
 
@@ -94,7 +98,7 @@ void find_stable_step(Simulation<Real>& s) {
   assert(has_masses_of_bounds(s));
   watch_grasps(s);  // also for the same grasps: elements may have other places
   forget_bounds(s);
-  evaluate_bounds(s);
+  s.limit.stable = s.limit.found = evaluate_bounds(s, 0);
   s.limit.interval = steps_between_bounds_at_first;
 }
 
@@ -104,12 +108,14 @@ void update_stable_step(Simulation<Real>& s) {
   const int steps = s.limit.steps_since_bound, interval = s.limit.interval;
   if (!watches_grasps(s)) watch_grasps(s);
   if (s.contacts.probe) forget_bounds(s);  // it may touch any element
-  evaluate_bounds(s);
-  const double change = std::abs(s.limit.stable / before - 1);
-  const double enough = std::isfinite(change) ? steps * change_between_bounds / std::max(change, 1e-9) : 1;
+  const double longest = (1 + steps * growth_of_steps) * before, found = evaluate_bounds(s, longest);
+  s.limit.stable = std::min(found, longest);
+  const double change = std::abs(found - s.limit.found) / steps;
+  const double room = found - (1 - change_between_bounds) * s.limit.stable;
+  s.limit.found = found;
+  const double enough = std::isfinite(change) ? room / std::max(change, 1e-9 * found) : 1;
   s.limit.interval =
       static_cast<int>(std::clamp(enough, 1.0, std::min(2.0 * interval, steps_between_bounds_when_calm)));
-  s.limit.stable = std::min(s.limit.stable, (1 + steps * growth_of_steps) * before);
 }
 
 template <class Real>

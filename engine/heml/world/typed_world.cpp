@@ -296,6 +296,7 @@ bool TypedWorld<Real>::copy_motion_from(const World& leader) {
   s_.grasps = o.grasps;
   s_.impulses.set_memory(o.impulses.memory());
   s_.limit.stable = o.limit.stable;
+  s_.limit.found = o.limit.found;
   s_.frequency_bounds.forget();
   s_.damping_bounds.forget();
   s_.halt.reset();

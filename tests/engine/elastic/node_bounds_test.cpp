@@ -36,6 +36,26 @@ TEST_CASE("node bounds: a node far below the maximum waits for its turn, the lar
   CHECK(nodes.due().size() == 4);
 }
 
+TEST_CASE("node bounds: where a step bears more than the largest, those between are not looked at") {
+  NodeBounds<double> nodes;
+  std::vector<double> bounds{1, 10, 9, 6};
+  const auto look = [&](double bearable) {
+    nodes.begin(bounds.size(), 1, bearable);
+    for (const int n : nodes.due()) nodes.set(static_cast<std::size_t>(n), bounds[static_cast<std::size_t>(n)]);
+    return nodes.end();
+  };
+  for (int k = 0; k < 2; ++k) look(0);
+  bounds[1] = 11, bounds[2] = 9.5;  // neighbours may have grown as fast
+  CHECK(look(30) == 11);
+  CHECK(nodes.due() == std::vector<int>{1});
+  bounds[1] = 12;
+  look(14);  // 9 after two steps in which others grew by 1 a step: to 13 at most
+  CHECK(nodes.due() == std::vector<int>{1});
+  bounds[1] = 13;
+  CHECK(look(14) == 13);
+  CHECK(nodes.due() == std::vector<int>{1, 2});
+}
+
 TEST_CASE("node bounds: where one grows fast, others may have") {
   NodeBounds<double> nodes;
   std::vector<double> bounds{1, 10, 9, 10};
