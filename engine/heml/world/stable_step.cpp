@@ -14,8 +14,7 @@ constexpr double safety_of_shreds = 0.5;
 // The limit oscillates with a body that is crushed, lands, or hangs by a corner. Steps that grow in that rhythm feed
 // the oscillation.
 constexpr double growth_of_steps = 0.001;  // per step, at most
-// The bound is evaluated again when the limit may be this much below the step in use, judged by how fast it changed
-// last time.
+// The bound is evaluated again when the limit may have changed by this much, judged by how fast it changed last time.
 constexpr double change_between_bounds = 0.02;
 constexpr double steps_between_bounds_when_calm = 32;  // at most: its cost is then negligible
 constexpr int steps_between_bounds_at_first = 8;
@@ -110,10 +109,10 @@ void update_stable_step(Simulation<Real>& s) {
   if (s.contacts.probe) forget_bounds(s);  // it may touch any element
   const double longest = (1 + steps * growth_of_steps) * before, found = evaluate_bounds(s, longest);
   s.limit.stable = std::min(found, longest);
-  const double change = std::abs(found - s.limit.found) / steps;
-  const double room = found - (1 - change_between_bounds) * s.limit.stable;
+  // Of what was found, since the step in use may be far below it.
+  const double change = std::abs(found - s.limit.found) / s.limit.stable;
   s.limit.found = found;
-  const double enough = std::isfinite(change) ? room / std::max(change, 1e-9 * found) : 1;
+  const double enough = std::isfinite(change) ? steps * change_between_bounds / std::max(change, 1e-9) : 1;
   s.limit.interval =
       static_cast<int>(std::clamp(enough, 1.0, std::min(2.0 * interval, steps_between_bounds_when_calm)));
 }
