@@ -25,7 +25,7 @@ TEST_CASE("halt: a stiffness beyond what float holds is told in words, not as a 
     const Vec3 place(0.1, 0.02, 0);
     const int tip = nodes_where(setup.mesh, [&](const Vec3& X) { return (X - place).norm() < 1e-9; })[0];
     REQUIRE(world->apply(Grasp{tip, 0.008}).ok());
-    for (int k = 0; k < 200 && !world->halt(); ++k) {
+    for (int k = 0; k < 2000 && !world->halt(); ++k) {
       if (k == 32)
         REQUIRE(world->apply(MoveTool{Vec3(-497427.9272425366, -392511.39734036976, -399879.89734429074)}).ok());
       if (k == 41) REQUIRE(world->apply(SetMaterial{std::nullopt, ogden}).ok());
