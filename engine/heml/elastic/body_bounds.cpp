@@ -182,21 +182,20 @@ template <class Real>
 Real ElasticBody<Real>::inner_frequency_bound(const Real* x, ThreadTeam& team, NodeBounds<Real>& nodes, int steps,
                                               Real bearable) {
   if (pressure_) pressure_->begin_bounds(x, team);
-  Real bound =
-      max_at_nodes(team, nodes, steps, bearable, [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
-        const Part& part = parts_[g];
-        const Real* weights = corner_weights();
-        std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
-        for (const auto& term : part.terms) term->frequency_bounds(*part.group, weights, x, begin, end, bounds, true);
-        if (pressure_) pressure_->add_frequency_bounds(g, weights, x, begin, end, bounds);
-        if (part.dilatation)
-          part.dilatation->add_frequency_bounds(*part.group, *layout_->virtual_corners, *step_weights_, x, begin, end,
-                                                bounds);
-      });
   if (fans_.needs_state()) fans_.read_state(fan_slots());
-  bound += fans_.state_bound(fan_slots());
-  if (!layout_->joints.springs.empty()) bound += layout_->joints.springs.frequency_bound(masses());
-  return bound;
+  Real of_all = fans_.state_bound(fan_slots());  // added to every node's
+  if (!layout_->joints.springs.empty()) of_all += layout_->joints.springs.frequency_bound(masses());
+  const auto of_elements = [&](std::size_t g, std::size_t begin, std::size_t end, Real* bounds) {
+    const Part& part = parts_[g];
+    const Real* weights = corner_weights();
+    std::fill_n(bounds, (end - begin) * ElementGroup<Real>::lanes, Real(0));
+    for (const auto& term : part.terms) term->frequency_bounds(*part.group, weights, x, begin, end, bounds, true);
+    if (pressure_) pressure_->add_frequency_bounds(g, weights, x, begin, end, bounds);
+    if (part.dilatation)
+      part.dilatation->add_frequency_bounds(*part.group, *layout_->virtual_corners, *step_weights_, x, begin, end,
+                                            bounds);
+  };
+  return max_at_nodes(team, nodes, steps, bearable - of_all, of_elements) + of_all;
 }
 
 template <class Real>

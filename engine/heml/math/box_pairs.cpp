@@ -80,13 +80,20 @@ std::vector<std::pair<int, int>> intersecting_pairs(const std::vector<Box>& boxe
     groups[g].push_back(static_cast<int>(i));
   }
   std::deque<BoxTree> trees;
-  for (const std::vector<int>& indices : groups)
-    if (!indices.empty()) trees.emplace_back(indices, boxes);
-  PairSearch search;
-  for (std::size_t a = 0; a < trees.size(); ++a) {
-    search.among(trees[a], trees[a].root);
-    for (std::size_t b = 0; b < a; ++b) search.between(trees[a], trees[a].root, trees[b], trees[b].root, between);
+  std::vector<Box> round_trees;  // widened: many groups are searched for near ones as boxes are
+  for (const std::vector<int>& indices : groups) {
+    if (indices.empty()) continue;
+    const BoxTree& tree = trees.emplace_back(indices, boxes);
+    const Eigen::Vector3d more = Eigen::Vector3d::Constant(between);
+    round_trees.emplace_back(tree.box(tree.root).min() - more, tree.box(tree.root).max() + more);
   }
+  PairSearch search;
+  for (const BoxTree& tree : trees) search.among(tree, tree.root);
+  if (trees.size() > 1)
+    for (const auto& [a, b] : intersecting_pairs(round_trees)) {
+      const BoxTree &one = trees[static_cast<std::size_t>(a)], &other = trees[static_cast<std::size_t>(b)];
+      search.between(one, one.root, other, other.root, between);
+    }
   return search.found;
 }
 

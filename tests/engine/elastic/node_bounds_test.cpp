@@ -154,6 +154,33 @@ TEST_CASE("node bounds of a body: at first those of all nodes, then of those nea
   CHECK(looked < all / 4);
 }
 
+TEST_CASE("node bounds of a body: what springs add to all counts against what a step bears") {
+  std::mt19937_64 random(9);
+  TetMesh mesh = test::irregular_box(random, {6, 3, 2});
+  for (Vec3& X : mesh.nodes) X.x() = X.x() < 0.02 ? X.x() : 0.02 + 4 * (X.x() - 0.02);  // large ones at one end
+  Material springs = test::sample_material("mass_spring");
+  springs.parameters[0] *= 100;
+  std::vector<int> material_of(mesh.tets.size());
+  for (std::size_t t = 0; t < material_of.size(); ++t) material_of[t] = t % 5 == 0;
+  ElasticBody<double> body(mesh, material_of, {test::sample_material("veronda_westmann"), springs},
+                           BodyOptions{true, false});
+  ThreadTeam team(1);
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) x.insert(x.end(), {X.x(), X.y(), X.z()});
+  const double bearable = 1.1 * body.frequency_bound(x.data(), team);
+  NodeBounds<double> nodes;
+  double whole = 0;
+  for (int k = 0; k < 25; ++k) {  // fewer steps than it takes for all to be looked at in turn
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      if (mesh.nodes[n].x() > 0.2) x[3 * n] = 0.2 + (1 + 0.1 * k) * (mesh.nodes[n].x() - 0.2);
+    whole = body.frequency_bound(x.data(), team);
+    const double partial = body.frequency_bound(x.data(), team, nodes, 1, bearable);
+    CAPTURE(k);
+    if (whole > 1.02 * bearable) CHECK(partial > bearable);
+  }
+  CHECK(whole > 1.5 * bearable);
+}
+
 TEST_CASE("node bounds of a body: those near a place are watched where nobody would look") {
   std::mt19937_64 random(5);
   const TetMesh mesh = test::irregular_box(random, {8, 8, 8});

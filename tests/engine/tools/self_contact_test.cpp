@@ -192,6 +192,35 @@ void compare(SelfContact& contact, const Soup& soup, Counts& counts) {
   for (const Key& key : expected.sure) ++(key[4] == 0 ? counts.faces : counts.edges);
 }
 
+/// Two bodies as one mesh.
+TetMesh together(TetMesh mesh, const TetMesh& other) {
+  for (Tet tet : other.tets) {
+    for (int& n : tet) n += static_cast<int>(mesh.nodes.size());
+    mesh.tets.push_back(tet);
+  }
+  mesh.nodes.insert(mesh.nodes.end(), other.nodes.begin(), other.nodes.end());
+  mesh.regions.assign(mesh.tets.size(), 0);
+  return mesh;
+}
+
+/// A search that is kept from step to step, and one from nothing in each.
+struct KeptAndNew {
+  const TetMesh& mesh;
+  SelfContact kept{{}, mesh};
+  std::size_t met = 0, changes = 0, last = 0;
+
+  explicit KeptAndNew(const TetMesh& of) : mesh(of) {}
+  template <class From, class To>
+  void compare(const From& from, const To& to) {
+    SelfContact anew({}, mesh);
+    const std::vector<ContactPair> expected = anew.contacts_between(from, to);
+    CHECK(kept.contacts_between(from, to) == expected);
+    met += expected.size();
+    changes += expected.size() != last;
+    last = expected.size();
+  }
+};
+
 }  // namespace
 
 TEST_CASE("of tetrahedra thrown about those pairs meet that a search of all pairs finds") {
@@ -237,17 +266,10 @@ TEST_CASE("candidates kept from earlier steps miss no pair, and are kept for som
 }
 
 TEST_CASE("no pair is missed where a part moves fast, bodies are drawn over each other, and what is slow is struck") {
-  TetMesh mesh = make_box(Vec3(6, 2, 3), {6, 2, 3});
-  const TetMesh upper = make_box(Vec3(4, 2, 3), {3, 2, 2}, Vec3(0.3, 2.02, 0.2));
-  const auto lower_nodes = static_cast<int>(mesh.nodes.size());
-  for (Tet tet : upper.tets) {
-    for (int& n : tet) n += lower_nodes;
-    mesh.tets.push_back(tet);
-  }
-  mesh.nodes.insert(mesh.nodes.end(), upper.nodes.begin(), upper.nodes.end());
-  mesh.regions.assign(mesh.tets.size(), 0);
-  SelfContact kept({}, mesh);
-  std::size_t met = 0, changes = 0, last = 0;
+  const TetMesh lower = make_box(Vec3(6, 2, 3), {6, 2, 3});
+  const TetMesh mesh = together(lower, make_box(Vec3(4, 2, 3), {3, 2, 2}, Vec3(0.3, 2.02, 0.2)));
+  const auto lower_nodes = static_cast<int>(lower.nodes.size());
+  KeptAndNew both(mesh);
   // The upper box slides to and fro and down; one end of the lower one swings, at first for itself, and then strikes.
   const auto place = [&](int n, double t) -> Vec3 {
     Vec3 x = mesh.nodes[static_cast<std::size_t>(n)];
@@ -260,30 +282,18 @@ TEST_CASE("no pair is missed where a part moves fast, bodies are drawn over each
     const double t = 0.01 * step, h = step % 50 < 40 ? 0.01 : 0.002;
     const auto at_from = [&](int n) { return place(n, t); };
     const auto at_to = [&](int n) { return place(n, t + h); };
-    SelfContact anew({}, mesh);
-    const std::vector<ContactPair> expected = anew.contacts_between(at_from, at_to);
-    CHECK(kept.contacts_between(at_from, at_to) == expected);
-    met += expected.size();
-    changes += expected.size() != last;
-    last = expected.size();
+    both.compare(at_from, at_to);
   }
-  CHECK(met > 2000);
-  CHECK(changes > 30);
-  CHECK(kept.broad_phase_count() < 100);
+  CHECK(both.met > 2000);
+  CHECK(both.changes > 30);
+  CHECK(both.kept.broad_phase_count() < 100);
 }
 
 TEST_CASE("pairs that sleep by what is certain are those that a new search rejects, on flat surfaces that tremble") {
-  TetMesh mesh = make_box(Vec3(3, 3, 3), {3, 3, 3});
-  const TetMesh upper = make_box(Vec3(3, 2, 3), {2, 2, 3}, Vec3(0.3, 3, 0.2));
-  for (Tet tet : upper.tets) {
-    for (int& n : tet) n += static_cast<int>(mesh.nodes.size());
-    mesh.tets.push_back(tet);
-  }
-  mesh.nodes.insert(mesh.nodes.end(), upper.nodes.begin(), upper.nodes.end());
-  mesh.regions.assign(mesh.tets.size(), 0);
+  const TetMesh mesh =
+      together(make_box(Vec3(3, 3, 3), {3, 3, 3}), make_box(Vec3(3, 2, 3), {2, 2, 3}, Vec3(0.3, 3, 0.2)));
   std::mt19937_64 random(17);
-  SelfContact kept({}, mesh);
-  std::size_t met = 0, changes = 0, last = 0;
+  KeptAndNew both(mesh);
   for (int step = 0; step < 400; ++step) {
     CAPTURE(step);
     // Bends of up to twice the sine of a ridge; from step to step far less.
@@ -294,15 +304,10 @@ TEST_CASE("pairs that sleep by what is certain are those that a new search rejec
     for (const Vec3& x : from) to.push_back(x + random_vector(random, 10 * tremor));
     const auto at_from = [&](int n) { return from[static_cast<std::size_t>(n)]; };
     const auto at_to = [&](int n) { return to[static_cast<std::size_t>(n)]; };
-    SelfContact anew({}, mesh);
-    const std::vector<ContactPair> expected = anew.contacts_between(at_from, at_to);
-    CHECK(kept.contacts_between(at_from, at_to) == expected);
-    met += expected.size();
-    changes += expected.size() != last;
-    last = expected.size();
+    both.compare(at_from, at_to);
   }
-  CHECK(met > 4000);
-  CHECK(changes > 50);
+  CHECK(both.met > 4000);
+  CHECK(both.changes > 50);
 }
 
 TEST_CASE("edges that bore a load stay in contact while their bend is not clearly gone") {
