@@ -73,7 +73,8 @@ bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& tea
     for (std::size_t b = begin; b < end; ++b) {
       const Part& part = parts_[points.blocks[b].part];
       const Real* kappa = part.dilatation ? part.dilatation->kappa() : nullptr;
-      const PointBlock<Real> block = point_block(*part.group, points, b, kappa, shared_force_.data());
+      const PointBlock<Real> block =
+          point_block<Real>(*part.group, points, b, part.points.parameters, kappa, shared_force_.data());
       if (!part.points.kernel(part.points.law.get(), block, x, f)) valid.store(false, std::memory_order_relaxed);
     }
   });
@@ -139,7 +140,7 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
         info.kernel = has_loops ? "fans and corners" : "fans";
         info.instructions = name_of(fans_.instruction_set());
         info.bytes_per_tet = fans_.bytes_per_tet(part_in_fans++);
-      } else if (material.fields.empty()) {
+      } else {
         info.instructions = part.in_points() ? name_of(part.points.instruction_set) : wide_instructions();
       }
       if (part.is_for_points()) info.kernel = "points";

@@ -22,7 +22,8 @@
 //   record:  x y z · f f f ·                 of each of the block's nodes, on the kernel's stack
 //
 // The constants are A*_aa, A*_00, A*_11, A*_01 of A* = 6V A and k = 1/6V; for a law of principal stretches the lower
-// Cholesky factor of A* instead (aa 00 11 10); for a law with a fibre additionally √(6V) Dm⁻¹a0.
+// Cholesky factor of A* instead (aa 00 11 10); for a law with a fibre additionally √(6V) Dm⁻¹a0; then the law's
+// parameters that differ between elements.
 //
 // Plain data only: files compiled for other instruction sets include this header.
 #include <cstddef>
@@ -47,7 +48,7 @@ struct FanBlock {
   Real* shared_force;          ///< 3 a shared node, summed later in the order of blocks
 };
 
-/// Number of constants per tetrahedron.
+/// Number of constants of a tetrahedron's rest shape.
 constexpr std::size_t fan_constants(bool has_fibre) { return has_fibre ? 8 : 5; }
 
 /// Maximum number of tetrahedra in a fan.

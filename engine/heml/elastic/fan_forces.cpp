@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t element_grain = 1024;  // min. elements per thread, which outweigh the cost of a fork
 
 FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape) {
-  FanElements result{*part.elements, shape, {}};
+  FanElements result{*part.elements, shape};
+  for (const FieldParameter& parameter : part.material->fields)
+    result.parameters.push_back(&find_field(mesh, parameter.field)->values);
   if (shape != FanShape::fibre) return result;
   const std::string& field = part.material->fibre_field;
   const std::vector<double>* values = field.empty() ? nullptr : &find_field(mesh, field)->values;
@@ -61,6 +63,7 @@ typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool 
   const bool has_fibre = result.shape == FanShape::fibre;
   result.fibre = has_fibre && material.fibre_field.empty() ? material.fibre : Vec3::Zero();
   if (has_fibre) result.fibre_field = material.fibre_field;
+  set_parameters(part, isochoric, result);
   add_terms(part, continuation, result);
   return result;
 }
@@ -86,13 +89,33 @@ void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law
   }
   law.takes_pressure = part.nodal_pressure;
   if (part.nodal_pressure) terms.volume = FanVolume::none;
-  if (terms.state == 0 && terms.volume == FanVolume::none && !law.takes_pressure) return;
+  if (terms.state == 0 && terms.volume == FanVolume::none && !law.takes_pressure && law.parameters.empty()) return;
   terms.is_principal = law.shape == FanShape::principal;
-  terms.constants = fan_constants(law.shape == FanShape::fibre);
   terms.is_continued = continuation;
   const FanTermKernels<Real> kernels = fan_term_kernels<Real>(isa_);
   law.term_kernel = find_energy_law(material.law) ? kernels.of_energy(law.shape == FanShape::fibre)
                                                   : kernels.of_law(law_index(material.law), continuation);
+}
+
+/// Which constants are parameters that differ between elements: of the law, or of its volume term, which takes κ from
+/// it.
+template <class Real>
+void FanForces<Real>::set_parameters(const FanPart& part, bool isochoric, Law& law) const {
+  const Material& material = *part.material;
+  const LawInfo& info = *find_law(material.law);
+  const std::size_t of_shape = fan_constants(law.shape == FanShape::fibre);
+  const std::vector<ParameterSlot> slots = parameter_slots(material, info);
+  const bool without_kappa = isochoric && info.has_volume_term;
+  for (const FieldParameter& field : material.fields) {
+    const ParameterInfo* parameter = slots[field.parameter].info;
+    const bool is_kappa = without_kappa && field.parameter == volume_parameter(material, info);
+    if (is_kappa) law.terms.kappa_constant = of_shape + law.parameters.size();
+    law.parameters.push_back(is_kappa || parameter->is_list()
+                                 ? FanTerms<Real>::not_of_the_law
+                                 : static_cast<std::size_t>(parameter - info.parameters.data()));
+    law.fields.push_back(field.field);
+  }
+  law.terms.constants = of_shape + law.parameters.size();
 }
 
 template <class Real>
@@ -102,6 +125,8 @@ std::vector<FanTerms<Real>> FanForces<Real>::terms_of_parts(const Real* pressure
     FanTerms<Real>& terms = result.emplace_back(law.terms);
     terms.branches = law.branches.data();
     terms.branch_count = law.branches.size();
+    terms.parameters = law.parameters.data();
+    terms.parameter_count = law.parameters.size();
     if (law.takes_pressure) terms.pressure = pressure;
   }
   return result;
@@ -114,7 +139,9 @@ bool FanForces<Real>::update_laws(const std::vector<FanPart>& parts, bool contin
   for (std::size_t p = 0; p < parts.size(); ++p) {
     laws.push_back(law_of(parts[p], continuation));
     const Law &now = laws.back(), &before = laws_[p];
-    if (now.shape != before.shape || now.fibre != before.fibre || now.fibre_field != before.fibre_field) return false;
+    if (now.shape != before.shape || now.fibre != before.fibre || now.fibre_field != before.fibre_field ||
+        now.fields != before.fields)
+      return false;
   }
   laws_ = std::move(laws);
   forget_state();
@@ -194,8 +221,7 @@ void FanForces<Real>::node_volumes(const Real* x, Real* sum, ThreadTeam& team) {
   const FanVolumeKernel<Real> kernel = fan_term_kernels<Real>(isa_).volumes;
   team.parallel_for(fans.blocks.size(), blocks_a_thread(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const std::size_t constants = fan_constants(laws_[fans.blocks[b].part].shape == FanShape::fibre);
-      kernel(block_at(b, 1), constants, x, sum);
+      kernel(block_at(b, 1), laws_[fans.blocks[b].part].terms.constants, x, sum);
     }
   });
   fans.nodes.template sum_shared<1>(shared_force_.data(), sum, team);

@@ -1,7 +1,7 @@
 #pragma once
-// Forces of elements with a uniform law: blocks of fans (elastic/fan_block.hpp), each run by the kernel of its law, or
-// by the one of its law and further terms (elastic/fan_terms.hpp).
-// Blocks write the forces of their own nodes, and those of shared nodes are summed (elastic/node_blocks.hpp).
+// Forces of elements of constant rest shapes: blocks of fans (elastic/fan_block.hpp), each run by the kernel of its
+// law, or by the one of its law and further terms or parameters that differ (elastic/fan_terms.hpp). Blocks write the
+// forces of their own nodes, and those of shared nodes are summed (elastic/node_blocks.hpp).
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/fan_kernels.hpp>
 #include <heml/elastic/fan_layout.hpp>
@@ -13,7 +13,7 @@
 
 namespace heml {
 
-/// Elements (inner numbers, in locality order) of one material without fields and with constant rest shapes.
+/// Elements (inner numbers, in locality order) of one material with constant rest shapes. The mesh has its fields.
 struct FanPart {
   const std::vector<int>* elements;
   const Material* material;
@@ -31,7 +31,7 @@ class FanForces {
             ThreadTeam& team);
 
   /// Replaces the laws of the same elements in the same parts and keeps the layout. Returns false and changes nothing
-  /// if the number of parts or the constants of a part (FanShape, fibre) would change. Forgets the state.
+  /// if the number of parts or the constants of a part (FanShape, fibre, fields) would change. Forgets the state.
   bool update_laws(const std::vector<FanPart>& parts, bool continuation);
 
   /// Updates the layout after an edit of the mesh (FanLayout::after_edit), keeping untouched blocks. Returns false and
@@ -78,8 +78,10 @@ class FanForces {
     FanShape shape;
     Vec3 fibre;               ///< only with FanShape::fibre
     std::string fibre_field;  ///< only with FanShape::fibre
+    std::vector<std::string> fields;      ///< of the parameters that differ between elements
+    std::vector<std::size_t> parameters;  ///< FanTerms::parameters
 
-    FanTermKernel<Real> term_kernel = nullptr;  ///< null: the law alone
+    FanTermKernel<Real> term_kernel = nullptr;  ///< null: the law alone, with the same parameters in all elements
     FanTerms<Real> terms;
     std::vector<FanBranch<Real>> branches;
     std::vector<PronyTerm> relaxation;
@@ -87,6 +89,7 @@ class FanForces {
   };
   Law law_of(const FanPart& part, bool continuation) const;
   void add_terms(const FanPart& part, bool continuation, Law& law) const;
+  void set_parameters(const FanPart& part, bool isochoric, Law& law) const;
   std::vector<FanTerms<Real>> terms_of_parts(const Real* pressure = nullptr) const;
   FanBlock<Real> block_at(std::size_t b, std::size_t numbers);
   std::size_t blocks_a_thread() const;

@@ -111,7 +111,7 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Chunk
   Groups<Real> groups;
   std::vector<Tet> tets;
   for (const int t : chunk.elements) tets.push_back(mesh.tets[at(t)]);
-  const std::size_t constants = fan_constants(part.shape == FanShape::fibre);
+  const std::size_t of_shape = fan_constants(part.shape == FanShape::fibre), constants = part.constants();
   const std::vector<Fan> fans = cut_into_fans(tets, lanes);
   for (std::size_t first = 0; first < fans.size(); first += lanes) {
     const FanSize size = fans[first].size();
@@ -134,8 +134,11 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Chunk
         const double scale = fan.tets.empty() ? 1 : rest_scale(mesh, at(chunk.elements[fan.tets[i]]));
         const auto values = constants_of(scale * nodes.axis, scale * nodes.spoke[i],
                                          scale * nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
+        // A dummy fan has the parameters of any element, for which the law is defined.
+        const std::size_t t = at(chunk.elements[fan.tets.empty() ? 0 : fan.tets[i]]);
         for (std::size_t c = 0; c < constants; ++c)
-          groups.shape[shape + (size.ring + i * constants + c) * lanes + l] = static_cast<Real>(values[c]);
+          groups.shape[shape + (size.ring + i * constants + c) * lanes + l] =
+              static_cast<Real>(c < of_shape ? values[c] : (*part.parameters[c - of_shape])[t]);
       }
     }
   }

@@ -39,6 +39,11 @@ struct FanElements {
   std::vector<int> elements;  ///< inner numbers, in locality order
   FanShape shape = FanShape::plain;
   std::function<Vec3(int element)> fibre = {};  ///< a0, FanShape::fibre only
+  /// Parameters that differ between elements, each of every element of the mesh.
+  std::vector<const std::vector<double>*> parameters = {};
+
+  /// Numbers a tetrahedron.
+  std::size_t constants() const { return fan_constants(shape == FanShape::fibre) + parameters.size(); }
 };
 
 template <class Real>

@@ -21,20 +21,29 @@ struct TermStages {
   using Group = typename Stages::Group;
   static constexpr std::size_t lanes = P::lanes;
 
-  /// Writes the tensions of a law into work.tensions [1 .. m].
-  using LawTensions = void (*)(const void* law, const Group& group, Work& work, Mask<P>& valid);
+  /// Writes the tensions of a law into work.tensions [1 .. m]. Parameters that differ are set in the law.
+  using LawTensions = void (*)(void* law, const FanTerms<Real>& terms, const Group& group, Work& work, Mask<P>& valid);
 
   template <class L>
-  static void law_tensions(const void* law, const Group& group, Work& work, Mask<P>& valid) {
-    constexpr std::size_t constants = fan_constants(L::uses_I4);
-    for (std::size_t i = 1; i <= group.m; ++i) {
-      const FanRest<P> rest = read_rest<P, constants>(group.rest + (i - 1) * constants * lanes);
-      FanTensions<P> t = fan_tensions<P>(*static_cast<const L*>(law), rest, gram(group, work, i),
-                                         rest.k * six_volumes(work, i), valid);
+  static void law_tensions(void* of_part, const FanTerms<Real>& terms, const Group& group, Work& work, Mask<P>& valid) {
+    constexpr std::size_t of_shape = fan_constants(L::uses_I4);
+    L& law = *static_cast<L*>(of_part);
+    const Real* constant = group.rest;
+    for (std::size_t i = 1; i <= group.m; ++i, constant += terms.constants * lanes) {
+      if constexpr (std::size(L::parameters) > 0) read_parameters(terms, constant + of_shape * lanes, law);
+      const FanRest<P> rest = read_rest<P, of_shape>(constant);
+      FanTensions<P> t = fan_tensions<P>(law, rest, gram(group, work, i), rest.k * six_volumes(work, i), valid);
       if constexpr (!has_coupling<L, P>) t.a0 = t.a1 = P(0);
       if constexpr (!L::uses_J) t.u = P(0);
       work.tensions[i] = t;
     }
+  }
+
+  template <class L>
+  [[gnu::always_inline]] static inline void read_parameters(const FanTerms<Real>& terms, const Real* from, L& law) {
+    for (std::size_t k = 0; k < terms.parameter_count; ++k, from += lanes)
+      if (terms.parameters[k] != terms.not_of_the_law)
+        law.*L::parameters[terms.parameters[k]].member = pack_at<P>(from);
   }
 
   [[gnu::always_inline]] static inline FanGram<P> gram(const Group& group, const Work& work, std::size_t i) {
@@ -70,9 +79,11 @@ struct TermStages {
   }
 
   static void add_volume(const FanTerms<Real>& terms, const Group& group, Work& work, Mask<P>& valid) {
-    const P scale = terms.kappa * Real(-1.0 / 6);
-    for (std::size_t i = 1; i <= group.m; ++i) {
-      const P k = pack_at<P>(group.rest + ((i - 1) * terms.constants + 4) * lanes);
+    P scale = terms.kappa * Real(-1.0 / 6);
+    const Real* constant = group.rest;
+    for (std::size_t i = 1; i <= group.m; ++i, constant += terms.constants * lanes) {
+      const P k = pack_at<P>(constant + 4 * lanes);
+      if (terms.kappa_constant) scale = pack_at<P>(constant + terms.kappa_constant * lanes) * Real(-1.0 / 6);
       work.tensions[i].u += scale * volume_derivative(terms, k * six_volumes(work, i), valid);
     }
   }
@@ -175,7 +186,7 @@ struct TermStages {
       add_volume(terms, group, work, valid);
   }
 
-  [[gnu::noinline]] static bool block(LawTensions tensions, const void* law, const FanBlock<Real>& block,
+  [[gnu::noinline]] static bool block(LawTensions tensions, void* law, const FanBlock<Real>& block,
                                       const FanTerms<Real>& terms, const Real* state, Real* next, const Real* x,
                                       Real* f) {
     alignas(64) Real records[8 * max_block_nodes];
@@ -191,7 +202,7 @@ struct TermStages {
       const FanSize size = block.size[g];
       Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
       Stages::read_group(group, index, records, work);
-      tensions(law, group, work, valid);
+      tensions(law, terms, group, work, valid);
       add_terms(terms, group, work, state, next, records, index, valid);
       P axis = 0;
       for (std::size_t i = 1; i <= group.m; ++i) axis += work.tensions[i].aa;
@@ -245,7 +256,7 @@ FanTermKernel<Real> term_kernel(std::size_t law, bool continued) {
     using Many = typename Tag::template Law<P, with>;
     kernel = [](const void* scalar, const FanBlock<Real>& block, const FanTerms<Real>& terms, const Real* state,
                 Real* next, const Real* x, Real* f) {
-      const Many many = broadcast<Many, P>(*static_cast<const One*>(scalar));
+      Many many = broadcast<Many, P>(*static_cast<const One*>(scalar));
       return Stages::block(&Stages::template law_tensions<Many>, &many, block, terms, state, next, x, f);
     };
   });
@@ -259,7 +270,7 @@ bool energy_term_block(const void* law, const FanBlock<Real>& block, const FanTe
   using P = typename Stages::P;
   Mask<P> defined = true;
   const auto* numbers = static_cast<const InvariantEnergy<Real, false, with_fibre>*>(law);
-  const NotingEnergy<P, with_fibre> noting{numbers->template broadcast<P>(), &defined};
+  NotingEnergy<P, with_fibre> noting{numbers->template broadcast<P>(), &defined};
   const bool valid = Stages::block(&Stages::template law_tensions<NotingEnergy<P, with_fibre>>, &noting, block, terms,
                                    state, next, x, f);
   return valid && defined.all();

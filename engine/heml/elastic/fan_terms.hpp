@@ -12,6 +12,9 @@
 // The six numbers are of the edges a, b0, b1 of elastic/fan_block.hpp, as aa 00 11 a0 a1 01; tensions have the reversed
 // sign of the kernels.
 //
+// Parameters that differ between elements are read before the tensions of each tetrahedron, from behind the constants
+// of its rest shape (elastic/fan_block.hpp). Only kernels with terms do that.
+//
 // Plain data only: files compiled for other instruction sets include this header.
 #include <heml/elastic/fan_block.hpp>
 
@@ -27,10 +30,14 @@ struct FanBranch {
 /// A volume term that the law does not have: none, κ/2 (J−1)², or those of VolumeLaw.
 enum class FanVolume { none, quadratic, logarithmic, simo_taylor };
 
+/// The volume modulus κ, if it differs between elements, is not one of the law's where a volume term takes it.
 template <class Real>
 struct FanTerms {
-  bool is_principal = false;      ///< the constants of the rest shape are those of a law of principal stretches
-  std::size_t constants = 0;      ///< a tetrahedron
+  bool is_principal = false;  ///< the constants of the rest shape are those of a law of principal stretches
+  std::size_t constants = 0;  ///< a tetrahedron, with the parameters that differ
+  const std::size_t* parameters = nullptr;  ///< which of the law's each of those is; not_of_the_law: none
+  std::size_t parameter_count = 0;
+  static constexpr std::size_t not_of_the_law = static_cast<std::size_t>(-1);
   Real eta = 0, zeta = 0;         ///< Pa s
   Real per_step = 0;              ///< 1/h, or 0
   std::size_t viscous_state = 0;  ///< numbers of state a tetrahedron: 6 or 0
@@ -41,6 +48,7 @@ struct FanTerms {
   FanVolume volume = FanVolume::none;
   bool is_continued = false;
   Real kappa = 0;                  ///< Pa
+  std::size_t kappa_constant = 0;  ///< which constant is κ instead; 0: none
   const Real* pressure = nullptr;  ///< Pa, of every node; null without averaged nodal pressure
 };
 

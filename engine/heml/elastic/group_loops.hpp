@@ -262,22 +262,24 @@ CornerWeights<Real> weights_of_slot(const ElementGroup<Real>& group, const Real*
   return of_corners;
 }
 
-/// Writes element_frequency_bound() of packets [begin, end), 1/s², into bounds (8 a packet), or adds it.
-template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline void group_frequency_bounds(const L& law, const ElementGroup<Real>& group,
+/// Writes element_frequency_bound() of packets [begin, end), 1/s², into bounds (8 a packet), or adds it. laws:
+/// PacketLaws or SameLaw.
+template <class L, class Real, class Laws>
+[[gnu::always_inline]] inline void group_frequency_bounds(Laws laws, const ElementGroup<Real>& group,
                                                           const Real* weights, const Real* x, std::size_t begin,
                                                           std::size_t end, Real* bounds, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p, bounds += lanes) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     const PacketWeights<Real> of_corners(group, weights, p);
+    laws.read(group, p * lanes);
     Real bound[lanes];
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
       const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
-      bound[l] = element_frequency_bound(law, kinematics, rest, of_corners.at(l), group.density);
+      bound[l] = element_frequency_bound(laws.at(l), kinematics, rest, of_corners.at(l), group.density);
     }
     for (std::size_t l = 0; l < lanes; ++l) bounds[l] = (add ? bounds[l] : 0) + bound[l];
   }

@@ -1,5 +1,7 @@
 #pragma once
-// The law of one slot, or of several in the lanes of a pack: uniform, or with parameters that vary by element.
+// The law of one slot, of several in the lanes of a pack, or of a packet: uniform, or with parameters that vary by
+// element.
+#include <algorithm>
 #include <cstring>
 #include <heml/elastic/element_group.hpp>
 #include <heml/materials/law_packs.hpp>
@@ -16,6 +18,7 @@ class LawSource {
 
   bool uniform() const { return members_.empty(); }
   const L& uniform_law() const { return law_; }
+  const std::vector<Real L::*>& members() const { return members_; }
 
   L at(const ElementGroup<Real>& group, std::size_t s) const {
     L law = law_;
@@ -44,6 +47,47 @@ class LawSource {
 
   L law_;
   std::vector<Real L::*> members_;
+};
+
+/// In place of PacketLaws, for a uniform law that holds more than parameters.
+template <class Real, class L>
+struct SameLaw {
+  const L& law;
+  void read(const ElementGroup<Real>&, std::size_t) const {}
+  const L& at(std::size_t) const { return law; }
+};
+
+/// The laws of the slots of a packet as lists of their parameters, for loops over lanes that are vectorised. Of laws
+/// that hold nothing but parameters (law_from()).
+template <class Real, class L>
+class PacketLaws {
+ public:
+  static constexpr std::size_t lanes = ElementGroup<Real>::lanes, count = std::size(L::parameters);
+
+  [[gnu::always_inline]] explicit PacketLaws(const LawSource<Real, L>& source) : source_(&source) {
+    for (std::size_t i = 0; i < count; ++i)
+      std::fill_n(value_[i], lanes, source.uniform_law().*L::parameters[i].member);
+  }
+  /// Of the slots from s on, until the next call.
+  [[gnu::always_inline]] inline void read(const ElementGroup<Real>& group, std::size_t s) {
+    for (std::size_t k = 0; k < source_->members().size(); ++k)
+      for (std::size_t i = 0; i < count; ++i)
+        if (L::parameters[i].member == source_->members()[k]) std::copy_n(&group.parameters[k][s], lanes, value_[i]);
+  }
+  [[gnu::always_inline]] inline L at(std::size_t lane) const {
+    return of_lane(lane, std::make_index_sequence<count>{});
+  }
+
+ private:
+  template <std::size_t... i>
+  [[gnu::always_inline]] inline L of_lane(std::size_t lane, std::index_sequence<i...>) const {
+    L law{};
+    ((law.*L::parameters[i].member = value_[i][lane]), ...);
+    return law;
+  }
+
+  const LawSource<Real, L>* source_;
+  Real value_[count][lanes];
 };
 
 /// The law of the slots in the lanes of a pack P.

@@ -38,9 +38,13 @@ HEML_WIDE void wide_mises_bounds(const LawSource<Real, L>& law, const ElementGro
   group_mises_bounds<WidePack<Real>, L>({law, group}, group, x, begin, end, bounds);
 }
 template <class Real, class L>
-HEML_WIDE void wide_frequency_bounds(const L& law, const ElementGroup<Real>& group, const Real* weights, const Real* x,
-                                     std::size_t begin, std::size_t end, Real* bounds, bool add) {
-  group_frequency_bounds<Real>(law, group, weights, x, begin, end, bounds, add);
+HEML_WIDE void wide_frequency_bounds(const LawSource<Real, L>& law, const ElementGroup<Real>& group,
+                                     const Real* weights, const Real* x, std::size_t begin, std::size_t end,
+                                     Real* bounds, bool add) {
+  if constexpr (InvariantLaw<L, Real>)
+    group_frequency_bounds<L>(PacketLaws<Real, L>(law), group, weights, x, begin, end, bounds, add);
+  else
+    group_frequency_bounds<L>(SameLaw<Real, L>{law.uniform_law()}, group, weights, x, begin, end, bounds, add);
 }
 
 template <class Real, Law<Real> L>
@@ -118,9 +122,9 @@ class LawTerm final : public GroupTerm<Real> {
 
   void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
                         Real* bounds, bool add) const override {
-    if (!source_.uniform() || !has_avx2())
+    if (!has_avx2() || !(source_.uniform() || InvariantLaw<L, Real>))
       return GroupTerm<Real>::frequency_bounds(group, weights, x, begin, end, bounds, add);
-    wide_frequency_bounds<Real>(source_.uniform_law(), group, weights, x, begin, end, bounds, add);
+    wide_frequency_bounds<Real>(source_, group, weights, x, begin, end, bounds, add);
   }
 
  private:

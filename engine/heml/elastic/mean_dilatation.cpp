@@ -115,12 +115,20 @@ std::vector<Real> split_volume_modulus(Material& material, Shared<ElementGroup<R
     }
     rest[s] = std::max(rest[s] - static_cast<Real>(limit), Real(0));
   }
-  if (material.fields.empty()) material.parameters[parameter] = std::min(material.parameters[parameter], limit);
-  for (std::size_t k = 0; k < material.fields.size(); ++k)
-    if (material.fields[k].parameter == parameter) {
-      std::vector<Real>& of_slots = group.write().parameters[k];
-      for (std::size_t s = 0; s < rest.size(); ++s) of_slots[s] -= rest[s];
-    }
+  if (material.fields.empty()) {
+    material.parameters[parameter] = std::min(material.parameters[parameter], limit);
+    return rest;
+  }
+  // The points' share follows from the shear modulus, so it differs between elements even where κ does not.
+  const auto is_kappa = [&](const FieldParameter& field) { return field.parameter == parameter; };
+  const auto found = std::find_if(material.fields.begin(), material.fields.end(), is_kappa);
+  const auto field = static_cast<std::size_t>(found - material.fields.begin());
+  ElementGroup<Real>& own = group.write();
+  if (found == material.fields.end()) {
+    own.parameters.push_back(volume_moduli(own, material));
+    material.fields.push_back({parameter, ""});
+  }
+  for (std::size_t s = 0; s < rest.size(); ++s) own.parameters[field][s] -= rest[s];
   return rest;
 }
 

@@ -18,11 +18,14 @@ struct PointForceKernel {
   using Block = PointBlock<Real>;
   using Fours = FoursOfLanes<P>;
   static constexpr std::size_t lanes = P::lanes, parts = Fours::parts, constants = L::uses_I4 ? 10 : 7;
+  static constexpr std::size_t max_parameters = std::size(L::parameters);
+  static_assert(max_parameters <= max_point_parameters);
 
   /// Quantities of the elements in the lanes.
   struct Elements {
     const std::uint16_t* index[lanes];
     const Real* constant[constants];  ///< A, V, then m: of 4 points an element, [element][point]
+    const Real* parameter[max_parameters];  ///< that differ between elements, likewise
     P at[10][3];                      ///< positions relative to the first node
     P shared[4][3];                   ///< what corner i of every point shares (quadratic_map.hpp)
   };
@@ -81,6 +84,11 @@ struct PointForceKernel {
     }
   }
 
+  [[gnu::always_inline]] static inline void read_parameters(const Elements& of, std::size_t count,
+                                                            P (&value)[max_parameters][4]) {
+    for (std::size_t k = 0; k < count; ++k) Fours::read(of.parameter[k], value[k]);
+  }
+
   [[gnu::always_inline]] static inline void add_four(const Real (&of_lane)[10][4][lanes], const Elements& of,
                                                      std::size_t k, std::size_t count, Real* records) {
     for (std::size_t a = 0; a < 10; ++a)
@@ -108,11 +116,14 @@ struct PointForceKernel {
   }
 
   /// Adds the forces of `count` elements, at most one a lane; `of`: their nodes and constants, of every lane.
-  [[gnu::always_inline]] static inline void add_forces(const L& law, Elements& of, const Real* kappa, std::size_t count,
-                                                       Mask<P>& valid, Real* records) {
+  /// Parameters that differ are set in the law.
+  [[gnu::always_inline]] static inline void add_forces(L& law, const Block& block, Elements& of, const Real* kappa,
+                                                       std::size_t count, Mask<P>& valid, Real* records) {
     read_positions(records, of);
     RestShape<P> rest[4];
     read_rest(of, rest);
+    P parameter[max_parameters][4];
+    read_parameters(of, block.parameters, parameter);
     P pressure(0);
     if constexpr (L::has_volume_term)
       if (kappa) pressure = mean_pressure(of, rest, Fours::pack_at(kappa));
@@ -126,6 +137,8 @@ struct PointForceKernel {
     for (std::size_t q = 0; q < 4; ++q) {
       P y[4][3], f[12];
       virtual_corners(of, q, y);
+      for (std::size_t k = 0; k < block.parameters; ++k)
+        law.*L::parameters[block.parameter_at[k]].member = parameter[k][q];
       const ElementKinematics<P> at_point =
           element_kinematics<L::uses_I2, L::uses_J, L::uses_I4, FibreShearLaw<L>>(y[0], y[1], y[2], y[3], rest[q]);
       valid = valid && law.valid(at_point.at);
@@ -164,7 +177,7 @@ struct PointForceKernel {
     }
   }
 
-  static bool run(const L& law, const Block& block, const Real* x, Real* f) {
+  static bool run(L law, const Block& block, const Real* x, Real* f) {
     alignas(64) Real records[8 * 10 * max_point_block_elements];
     read_nodes(block.place, block.own, x, records);
     read_nodes(block.place + block.own, block.nodes - block.own, x, records + 8 * block.own);
@@ -177,15 +190,19 @@ struct PointForceKernel {
       for (std::size_t l = 0; l < lanes; ++l) of.index[l] = block.index + 10 * (first + in_lane(l));
       for (std::size_t c = 0; c < constants; ++c)
         of.constant[c] = (c < 6 ? block.A[c] : c == 6 ? block.volume : block.fibre[c - 7]) + 4 * first;
-      Real last[constants][4 * lanes], kappa[lanes];
-      if (count < lanes)  // what is read must exist
-        for (std::size_t c = 0; c < constants; ++c) {
-          for (std::size_t s = 0; s < 4 * lanes; ++s) last[c][s] = of.constant[c][4 * in_lane(s / 4) + s % 4];
-          of.constant[c] = last[c];
-        }
+      for (std::size_t k = 0; k < block.parameters; ++k) of.parameter[k] = block.parameter[k] + 4 * first;
+      Real last[constants + max_parameters][4 * lanes], kappa[lanes];
+      const auto pad = [&](const Real*& values, Real(&padded)[4 * lanes]) {
+        for (std::size_t s = 0; s < 4 * lanes; ++s) padded[s] = values[4 * in_lane(s / 4) + s % 4];
+        values = padded;
+      };
+      if (count < lanes) {  // what is read must exist
+        for (std::size_t c = 0; c < constants; ++c) pad(of.constant[c], last[c]);
+        for (std::size_t k = 0; k < block.parameters; ++k) pad(of.parameter[k], last[constants + k]);
+      }
       if (block.kappa)
         for (std::size_t l = 0; l < lanes; ++l) kappa[l] = block.kappa[4 * (first + in_lane(l))];
-      add_forces(law, of, block.kappa ? kappa : nullptr, count, valid, records);
+      add_forces(law, block, of, block.kappa ? kappa : nullptr, count, valid, records);
     }
     for (std::size_t n = 0; n < block.nodes; ++n) {
       Real* const to = n < block.own ? f + block.place[n] : block.shared_force + 3 * (n - block.own);

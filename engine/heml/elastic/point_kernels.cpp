@@ -1,12 +1,13 @@
 #include <heml/elastic/point_kernels.hpp>
 #include <heml/materials/energy_law.hpp>
 #include <heml/materials/laws.hpp>
+#include <heml/materials/parameter_slots.hpp>
 
 namespace heml {
 
 template <class Real>
 PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout& layout, std::size_t number,
-                             const Real* kappa, Real* of_slot) {
+                             std::span<const PointParameter> parameters, const Real* kappa, Real* of_slot) {
   const PointLayout::Block& at = layout.blocks[number];
   const NodeBlocks::Block& nodes = layout.nodes.blocks[number];
   const std::size_t slot = element_points * at.first;
@@ -16,6 +17,10 @@ PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout&
   for (std::size_t i = 0; i < 6; ++i) block.A[i] = group.A[i].data() + slot;
   block.volume = group.volume.data() + slot;
   for (std::size_t i = 0; i < 3; ++i) block.fibre[i] = group.fibre[i].empty() ? nullptr : &group.fibre[i][slot];
+  for (const auto [field, parameter] : parameters) {
+    block.parameter[block.parameters] = &group.parameters[field][slot];
+    block.parameter_at[block.parameters++] = parameter;
+  }
   block.kappa = kappa ? kappa + slot : nullptr;
   block.place = &layout.nodes.place[nodes.place];
   block.own = nodes.own;
@@ -27,8 +32,15 @@ PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout&
 template <class Real>
 PointForces<Real> point_forces(const Material& material, bool continuation, InstructionSet isa) {
   PointForces<Real> result;
-  if (!material.fields.empty() || find_energy_law(material.law)) return result;
+  if (find_energy_law(material.law)) return result;
   result.instruction_set = resolve(isa);
+  const LawInfo& info = *find_law(material.law);
+  const std::vector<ParameterSlot> slots = parameter_slots(material, info);
+  for (std::size_t k = 0; k < material.fields.size(); ++k) {
+    const ParameterInfo* parameter = slots[material.fields[k].parameter].info;
+    if (!parameter->is_list())
+      result.parameters.push_back({k, static_cast<std::size_t>(parameter - info.parameters.data())});
+  }
   with_law<Real>(material, continuation, [&]<class L>(const L& law) {
     result.law = std::make_shared<const L>(law);
 #if HEML_X86_KERNELS
@@ -41,10 +53,10 @@ PointForces<Real> point_forces(const Material& material, bool continuation, Inst
   return result;
 }
 
-template PointBlock<float> point_block(const ElementGroup<float>&, const PointLayout&, std::size_t, const float*,
-                                       float*);
-template PointBlock<double> point_block(const ElementGroup<double>&, const PointLayout&, std::size_t, const double*,
-                                        double*);
+template PointBlock<float> point_block(const ElementGroup<float>&, const PointLayout&, std::size_t,
+                                       std::span<const PointParameter>, const float*, float*);
+template PointBlock<double> point_block(const ElementGroup<double>&, const PointLayout&, std::size_t,
+                                        std::span<const PointParameter>, const double*, double*);
 template PointForces<float> point_forces(const Material&, bool, InstructionSet);
 template PointForces<double> point_forces(const Material&, bool, InstructionSet);
 

@@ -1,14 +1,18 @@
 #pragma once
-// Forces of a uniform law at the points of quadratic elements, straight from the elements' ten nodes to them. Each
-// instruction set has a file of its own (engine/CMakeLists.txt); loops over virtual corners (group_loops.hpp) do the
-// rest: other terms, laws by expression, parameters by element, processors without AVX2.
+// Forces of a law at the points of quadratic elements, straight from the elements' ten nodes to them. Each instruction
+// set has a file of its own (engine/CMakeLists.txt); loops over virtual corners (group_loops.hpp) do the rest: other
+// terms, laws by expression, processors without AVX2.
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/elastic/point_layout.hpp>
 #include <heml/elastic/quadratic_map.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
+#include <span>
 
 namespace heml {
+
+/// Maximum number of a law's parameters that can differ between elements.
+inline constexpr std::size_t max_point_parameters = 8;
 
 /// Elements of a group that follow each other, and their nodes. Plain data only: files
 /// compiled for other instruction sets share no inline code with the rest.
@@ -22,15 +26,23 @@ struct PointBlock {
   const Real* A[6];            ///< 1/m²
   const Real* volume;          ///< m³
   const Real* fibre[3];        ///< 1/m, or null
+  std::size_t parameters;      ///< of the law that differ between elements
+  const Real* parameter[max_point_parameters];     ///< of the points as A
+  std::size_t parameter_at[max_point_parameters];  ///< which of the law's it is
   const Real* kappa;  ///< Pa, of a quadratic volume term at the mean volume ratio (mean_dilatation.hpp), or null
   const std::uint32_t* place;  ///< 3 n of the block's nodes n: its own first, then those shared with other blocks
   std::size_t own, nodes;      ///< number of own nodes, whose forces are written to f directly, and of all
   Real* shared_force;          ///< 3 a shared node, summed later in the order of blocks
 };
+/// A parameter that differs between elements: which of ElementGroup::parameters, and which of the law's.
+struct PointParameter {
+  std::size_t field, parameter;
+};
+
 /// kappa: of the elements of the group. of_slot: 3 a slot of the layout's shared nodes.
 template <class Real>
 PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout& layout, std::size_t block,
-                             const Real* kappa, Real* of_slot);
+                             std::span<const PointParameter> parameters, const Real* kappa, Real* of_slot);
 
 /// Writes the forces (N) of a block at positions x (3 #V, m) into f (3 #V) and shared_force, overwritten. `law`: as a
 /// struct of Real. Returns whether the law is defined at all points. Threads may call it on different blocks.
@@ -43,6 +55,7 @@ template <class Real>
 struct PointForces {
   PointKernel<Real> kernel = nullptr;
   std::shared_ptr<const void> law;
+  std::vector<PointParameter> parameters = {};
   InstructionSet instruction_set = InstructionSet::portable;
 };
 

@@ -11,6 +11,7 @@ namespace heml::fan_terms_test {
 using test::irregular_box;
 using test::largest;
 using test::sample_material;
+using test::vary_parameters;
 
 namespace {
 
@@ -36,8 +37,7 @@ class LoopBody {
     for (const Vec3& X : mesh.nodes) rest.insert(rest.end(), {X.x(), X.y(), X.z()});
     for (const auto& term : terms_) term->begin_step(0), term->reset_history(group_, rest.data());
     if (!nodal_pressure) return;
-    const std::vector<double> kappa(group_.volume.size(),
-                                    material.parameters[*volume_parameter(material, *find_law(material.law))]);
+    const std::vector<double> kappa = volume_moduli(group_, material);
     pressure_ = std::make_unique<NodalPressure<double>>(std::vector<const ElementGroup<double>*>{&group_}, corners_,
                                                         std::vector<std::vector<double>>{kappa}, material.volume_term,
                                                         continuation);
@@ -110,14 +110,17 @@ std::vector<std::pair<std::string, Material>> with_terms(std::string_view law) {
 }
 
 template <class Real>
-void check_kernels(InstructionSet isa, double tolerance) {
+void check_kernels(InstructionSet isa, double tolerance, bool varying = false) {
   std::mt19937_64 random(61);
-  const TetMesh mesh = irregular_box(random, {3, 2, 2});
+  TetMesh mesh = irregular_box(random, {3, 2, 2});
   const std::vector<int> one_material(mesh.tets.size(), 0);
-  for (const auto law : test::law_names())
-    for (const auto& named : with_terms(law))
+  for (const auto law : test::law_names()) {
+    auto materials = with_terms(law);
+    if (varying) materials.emplace_back("alone", sample_material(law));
+    for (auto& named : materials)
       for (const bool continuation : {false, true}) {
-        const Material& material = named.second;
+        Material& material = named.second;
+        if (varying) vary_parameters(material, mesh, random);
         CAPTURE(std::string(law));
         CAPTURE(named.first);
         CAPTURE(std::string(name_of(isa)));
@@ -134,6 +137,7 @@ void check_kernels(InstructionSet isa, double tolerance) {
           loops.commit(x);
         }
       }
+  }
 }
 
 Material remembering() {
@@ -153,6 +157,28 @@ TEST_CASE("kernels with terms in float give the forces of the loops to float's p
   for (const InstructionSet isa : instruction_sets()) check_kernels<float>(isa, 1e-4);
 }
 
+TEST_CASE("kernels of parameters that differ between elements give the forces of the loops, alone and with terms") {
+  for (const InstructionSet isa : instruction_sets()) {
+    check_kernels<double>(isa, 1e-12, true);
+    check_kernels<float>(isa, 1e-4, true);
+  }
+}
+
+TEST_CASE("a material whose parameters come from other fields gets their values") {
+  std::mt19937_64 random(66);
+  TetMesh mesh = irregular_box(random, {3, 2, 2});
+  Material material = sample_material("mooney_rivlin");
+  vary_parameters(material, mesh, random);
+  Material other = material;
+  std::swap(other.fields[0].field, other.fields[1].field);
+  const std::vector<int> one_material(mesh.tets.size(), 0);
+  ElasticBody<double> changed(mesh, one_material, {material}, {}), made(mesh, one_material, {other}, {});
+  const auto x = moved(mesh, random, 0.03, Vec3(1.1, 1, 0.9).asDiagonal());
+  CHECK(difference(forces_of(changed, x), forces_of(made, x)) > 1e-3);
+  changed.set_material(0, other, x.data());
+  CHECK(forces_of(changed, x) == forces_of(made, x));
+}
+
 TEST_CASE("crushed and inverted elements relax as in the loops") {
   std::mt19937_64 random(62);
   const TetMesh mesh = irregular_box(random, {3, 2, 2});
@@ -170,22 +196,24 @@ TEST_CASE("crushed and inverted elements relax as in the loops") {
 
 TEST_CASE("nodal pressure in the fans gives the forces of the loops, with terms beside it too") {
   std::mt19937_64 random(63);
-  const TetMesh mesh = irregular_box(random, {4, 3, 3});
+  TetMesh mesh = irregular_box(random, {4, 3, 3});
   const std::vector<int> one_material(mesh.tets.size(), 0);
   Material plain = sample_material("mooney_rivlin"), other = remembering();
   other.volume_term = VolumeTerm::logarithmic;
   for (const InstructionSet isa : instruction_sets())
-    for (const Material& material : {plain, other, sample_material("ogden"), sample_material("hgo")}) {
-      CAPTURE(material.law);
-      ElasticBody<double> body(mesh, one_material, {material}, {false, true, isa});
-      ElasticBody<float> single(mesh, one_material, {material}, {false, true, isa});
-      CHECK(body.kernels().front().kernel == "fans");
-      LoopBody loops(mesh, material, false, true);
-      const auto x = moved(mesh, random, 0.03, Vec3(1.1, 1, 0.9).asDiagonal());
-      body.begin_step(0.01), single.begin_step(0.01f), loops.begin_step(0.01);
-      CHECK(difference(forces_of(body, x), loops.forces(x)) <= 1e-11);
-      CHECK(difference(forces_of(single, x), loops.forces(x)) <= 1e-3);
-    }
+    for (const bool varying : {false, true})
+      for (Material material : {plain, other, sample_material("ogden"), sample_material("hgo")}) {
+        CAPTURE(material.law);
+        if (varying) vary_parameters(material, mesh, random);
+        ElasticBody<double> body(mesh, one_material, {material}, {false, true, isa});
+        ElasticBody<float> single(mesh, one_material, {material}, {false, true, isa});
+        CHECK(body.kernels().front().kernel == "fans");
+        LoopBody loops(mesh, material, false, true);
+        const auto x = moved(mesh, random, 0.03, Vec3(1.1, 1, 0.9).asDiagonal());
+        body.begin_step(0.01), single.begin_step(0.01f), loops.begin_step(0.01);
+        CHECK(difference(forces_of(body, x), loops.forces(x)) <= 1e-11);
+        CHECK(difference(forces_of(single, x), loops.forces(x)) <= 1e-3);
+      }
 }
 
 TEST_CASE("the state reached does not depend on what was evaluated before commit, on threads or on a snapshot") {

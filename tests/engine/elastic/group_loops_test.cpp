@@ -67,6 +67,10 @@ void check_loops(const GroupTerm<Real>& term, const ElementGroup<Real>& group, c
   }
   CHECK(largest > 0);
   CHECK(apart <= 8 * digits * largest);
+  std::vector<Real> bounds(slots), bounds_of_slots(slots);
+  term.frequency_bounds(group, nullptr, x, 0, packets, bounds.data(), false);
+  term.GroupTerm<Real>::frequency_bounds(group, nullptr, x, 0, packets, bounds_of_slots.data(), false);
+  for (std::size_t s = 0; s < slots; ++s) CHECK(std::abs(bounds[s] - bounds_of_slots[s]) <= 1e-4f * bounds_of_slots[s]);
   std::vector<double> energies(packets), energies_of_slots(packets);
   term.energies(group, x, 0, packets, energies.data(), false);
   term.GroupTerm<Real>::energies(group, x, 0, packets, energies_of_slots.data(), false);

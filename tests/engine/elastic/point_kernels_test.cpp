@@ -96,6 +96,20 @@ TEST_CASE("point kernels: mean dilatation of every law with a volume term") {
   CHECK(seen >= 5);
 }
 
+TEST_CASE("point kernels: parameters that differ between elements, whole and with mean dilatation") {
+  std::mt19937_64 random(66);
+  Sample sample(random);
+  for (const auto law : test::law_names()) {
+    Material material = sample_material(law);
+    test::vary_parameters(material, sample.body.mesh, random);
+    CAPTURE(std::string(law));
+    for (const bool pressure : {false, find_law(law)->has_volume_term}) {
+      check_law<double>(sample, material, true, pressure, 1e-12);
+      check_law<float>(sample, material, true, pressure, 2e-4);
+    }
+  }
+}
+
 TEST_CASE("point kernels: bodies of several blocks, which share nodes") {
   std::mt19937_64 random(65);
   Sample sample(random);
@@ -150,7 +164,7 @@ TEST_CASE("point kernels: an undefined law is told of one element, whichever lan
   }
 }
 
-TEST_CASE("point kernels: other terms, and parameters by element, take the loops") {
+TEST_CASE("point kernels: other terms take the loops") {
   std::mt19937_64 random(64);
   const Sample sample(random);
   const InstructionSet best = instruction_sets().back();

@@ -1,6 +1,7 @@
 #pragma once
 // A small irregular body of one material, displaced from rest.
 #include <heml/elastic/body.hpp>
+#include <heml/materials/parameter_slots.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/reorder.hpp>
 
@@ -22,6 +23,21 @@ inline TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& 
   TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
   for (Vec3& X : mesh.nodes) X += random_vector(random, 0.012 / cells[0]);
   return reordered(mesh, hilbert_order(mesh));
+}
+
+/// Makes all parameters of the material but lists differ between the elements: fields of the mesh.
+inline void vary_parameters(Material& material, TetMesh& mesh, std::mt19937_64& random) {
+  mesh.fields.clear();
+  material.fields.clear();
+  const std::vector<ParameterSlot> slots = parameter_slots(material, *find_law(material.law));
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (slots[k].info->is_list()) continue;
+    ElementField field{"parameter " + std::to_string(k), 1, {}};
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+      field.values.push_back(material.parameters[k] * uniform(random, 0.7, 1.4));
+    material.fields.push_back({k, field.name});
+    mesh.fields.push_back(std::move(field));
+  }
 }
 
 /// Pushes a corner of a tetrahedron as near to its opposite face as `left` of its height, the first one where all
