@@ -122,7 +122,7 @@ class ElasticBody {
   void force_differential(const Real* dx, Real* out, ThreadTeam& team);
 
   /// Makes `rows`, which is of the same elements, K between free nodes. Returns false and changes nothing with averaged
-  /// nodal pressure, which couples nodes that share no element, and with mean dilatation.
+  /// nodal pressure, which couples nodes that share no element.
   bool assemble(BsrMatrix& rows, ThreadTeam& team) const;
 
   /// Calls visit(nodes (4 inner numbers), K (12×12)) for every element, or visit(nodes (10), K (30×30)) for quadratic

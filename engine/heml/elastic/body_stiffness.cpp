@@ -37,7 +37,8 @@ template <class Real>
 void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
   if (projection != Projection::element && projection != Projection::tension) return;
   projected_ = true;
-  for (Part& part : parts_)
+  for (Part& part : parts_) {
+    if (part.dilatation) part.dilatation->project();
     team.parallel_for(part.group->volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         Real k[edge_entries];
@@ -59,24 +60,27 @@ void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
         write_edge_stiffness(k, s, part.stiffness.data(), false);
       }
     });
+  }
 }
 
 template <class Real>
-void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam& team) {
-  dx = inner_positions(dx, team);
+void ElasticBody<Real>::force_differential(const Real* at_nodes, Real* out, ThreadTeam& team) {
+  const Real* dx = inner_positions(at_nodes, team);
   Real* corner = corner_forces().data();
   for (const Part& part : parts_)
     team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
       multiply_stiffness(part.stiffness.data(), *part.group, dx, begin, end, corner);
     });
-  const Real* x = linearisation_point_.data();
   if (layout_->virtual_corners) {
+    const VirtualCorners<Real>& corners = *layout_->virtual_corners;
+    Real* of_element = nodal_forces();
+    for (const Part& part : parts_) corners.at_nodes(*part.group, corner_, of_element, team);
     each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-      part.dilatation->add_force_differential(*part.group, x, dx, projected_, begin, end, corner);
+      part.dilatation->add_force_differential(*part.group, corners, at_nodes, begin, end, of_element);
     });
-    for (const Part& part : parts_) layout_->virtual_corners->at_nodes(*part.group, corner_, nodal_forces(), team);
-    return layout_->virtual_corners->sum(of_element_.data(), out, false, team);
+    return corners.sum(of_element, out, false, team);
   }
+  const Real* x = linearisation_point_.data();
   if (pressure_) pressure_->add_force_differential(x, dx, corner, team);
   gather_corners(layout_->joints.corners, out, false, team);
   if (!layout_->joints.springs.empty()) layout_->joints.springs.add_force_differential(x, dx, out, projected_, team);
@@ -84,11 +88,12 @@ void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam
 
 template <class Real>
 bool ElasticBody<Real>::assemble(BsrMatrix& rows, ThreadTeam& team) const {
-  const auto has_dilatation = [](const Part& part) { return part.dilatation != nullptr; };
-  if (pressure_ || std::any_of(parts_.begin(), parts_.end(), has_dilatation)) return false;
+  if (pressure_) return false;
   rows.begin_elements(team);
   for (const Part& part : parts_)
-    if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), *part.group, team);
+    if (!part.terms.empty())
+      rows.add_elements(part.stiffness.data(), *part.group, team,
+                        part.dilatation ? part.dilatation->outer_products() : nullptr);
   rows.end_elements(team);
   each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
     Mat3 B;
@@ -111,8 +116,7 @@ void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementM
 /// Σ_q BᵀKB over the points of an element.
 template <class Real>
 void ElasticBody<Real>::quadratic_stiffness(std::size_t p, std::size_t first_slot, QuadraticMatrix<Real>& K) const {
-  if (const Part& part = parts_[p]; part.dilatation)
-    part.dilatation->add_stiffness(*part.group, linearisation_point_.data(), projected_, first_slot, K);
+  if (const Part& part = parts_[p]; part.dilatation) part.dilatation->add_stiffness(first_slot, K);
   for (std::size_t q = 0; q < element_points; ++q) {
     ElementMatrix<Real> of_point = {};
     element_stiffness(p, first_slot + q, of_point);

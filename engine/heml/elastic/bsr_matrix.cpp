@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <heml/elastic/avx2_dispatch.hpp>
@@ -13,6 +14,13 @@ namespace {
 constexpr std::size_t row_grain = 512;  // min. rows per thread, which outweigh the cost of waking it
 
 using Row = Four<float>;
+
+template <class Real>
+[[gnu::always_inline]] inline void read_outer_product(const OuterProduct<Real>& outer, float (&g)[10][4], float& k) {
+  k = static_cast<float>(outer.k);
+  for (std::size_t a = 0; a < 10; ++a)
+    for (std::size_t i = 0; i < 3; ++i) g[a][i] = static_cast<float>(outer.g[3 * a + i]);
+}
 
 }  // namespace
 
@@ -180,7 +188,8 @@ template <class Real>
 /// An element at a time.
 template <class Real>
 [[gnu::always_inline]] inline void BsrMatrix::add_quadratic(std::size_t begin, std::size_t end, const Real* K,
-                                                            const ElementGroup<Real>& group) {
+                                                            const ElementGroup<Real>& group,
+                                                            const OuterProduct<Real>* outer) {
   constexpr std::size_t packet = ElementGroup<Real>::lanes;
   const SectionMask mine = (SectionMask{1} << end) - (SectionMask{1} << begin);
   const auto first = static_cast<std::size_t>(start_[first_row(begin)]);
@@ -188,6 +197,8 @@ template <class Real>
   for (std::size_t s = 0; s < group.size(); s += element_points) {
     const auto element = static_cast<std::size_t>(group.element[s]) / element_points;
     if (!(sections_[element] & mine)) continue;
+    float g[10][4] = {}, k = 0;
+    if (outer) read_outer_product(outer[s / element_points], g, k);
     Row of_corners[4][4][3][3];  // columns
     expand_corners(K + edge_entries * packet * (s / packet) + s % packet, of_corners);
     const int* place = &block_indices_[pairs_ * element];
@@ -197,6 +208,8 @@ template <class Real>
         if (!(block - first < last - first)) continue;
         Row columns[3];
         find_quadratic_block(of_corners, a, b, columns);
+        if (outer)
+          for (int j = 0; j < 3; ++j) columns[j] += read_four(g[a]) * (k * g[b][j]);
         for (int j = 0; j < 3; ++j) sum_[block].column[j] += columns[j];
       }
   }
@@ -205,29 +218,32 @@ template <class Real>
 /// Adds the stiffness of a group to the sums of sections [begin, end).
 template <class Real>
 [[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t begin, std::size_t end, const Real* K,
-                                                     const ElementGroup<Real>& group) {
+                                                     const ElementGroup<Real>& group, const OuterProduct<Real>* outer) {
   if (pairs_ == 6)
     add_linear(begin, end, K, group);
   else
-    add_quadratic(begin, end, K, group);
+    add_quadratic(begin, end, K, group, outer);
 }
 
 template <class Real>
-HEML_WIDE void BsrMatrix::add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group) {
-  add_to(begin, end, K, group);
+HEML_WIDE void BsrMatrix::add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group,
+                                   const OuterProduct<Real>* outer) {
+  add_to(begin, end, K, group, outer);
 }
 
 template <class Real>
-void BsrMatrix::add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team) {
+void BsrMatrix::add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team,
+                             const OuterProduct<Real>* outer) {
+  assert(!outer || pairs_ == 45);
   // One part a thread: more have longer borders, whose elements two threads compute.
   const std::size_t threads = std::min<std::size_t>(rows() / row_grain, static_cast<std::size_t>(team.limit()));
   const std::size_t parts = std::clamp<std::size_t>(threads, 1, sections);
   team.parallel_for(parts, 1, [&](std::size_t begin, std::size_t end) {
     const std::size_t first = sections * begin / parts, last = sections * end / parts;
     if (has_avx2())
-      add_wide(first, last, K, group);
+      add_wide(first, last, K, group, outer);
     else
-      add_to(first, last, K, group);
+      add_to(first, last, K, group, outer);
   });
 }
 
@@ -301,7 +317,9 @@ void BsrMatrix::multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team)
 
 template BsrMatrix::BsrMatrix(const std::vector<int>&, const std::vector<std::array<int, 4>>&);
 template BsrMatrix::BsrMatrix(const std::vector<int>&, const std::vector<std::array<int, 10>>&);
-template void BsrMatrix::add_elements(const float*, const ElementGroup<float>&, ThreadTeam&);
-template void BsrMatrix::add_elements(const double*, const ElementGroup<double>&, ThreadTeam&);
+template void BsrMatrix::add_elements(const float*, const ElementGroup<float>&, ThreadTeam&,
+                                      const OuterProduct<float>*);
+template void BsrMatrix::add_elements(const double*, const ElementGroup<double>&, ThreadTeam&,
+                                      const OuterProduct<double>*);
 
 }  // namespace heml

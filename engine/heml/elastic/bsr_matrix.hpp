@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/element_group.hpp>
+#include <heml/elastic/outer_product.hpp>
 #include <heml/math/bytes.hpp>
 #include <heml/math/types.hpp>
 #include <heml/mesh/tet_mesh.hpp>
@@ -44,10 +45,11 @@ class BsrMatrix {
   void set_zero();
   /// K = Σ of element stiffnesses, N/m (edge_stiffness.hpp), of groups whose element numbers are indices into the
   /// elements, or, of quadratic ones, four times these and the point; over what was there: a call to begin, one for
-  /// each group, and one to end.
+  /// each group, and one to end. outer: added to the elements of the group, which are quadratic; null: none.
   void begin_elements(ThreadTeam& team);
   template <class Real>
-  void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team);
+  void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team,
+                    const OuterProduct<Real>* outer = nullptr);
   void end_elements(ThreadTeam& team);
   /// Adds [B −B; −B B], B symmetric (N/m), between two nodes. Rows that do not exist are ignored, here and below.
   void add_edge(int a, int b, const Mat3& B);
@@ -92,13 +94,16 @@ class BsrMatrix {
   const float* entries(int block) const { return &entry_[9 * static_cast<std::size_t>(block)]; }
   void add(int row, int column, const Mat3& B);
   template <class Real>
-  void add_to(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
+  void add_to(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group,
+              const OuterProduct<Real>* outer);
   template <class Real>
   void add_linear(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
   template <class Real>
-  void add_quadratic(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
+  void add_quadratic(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group,
+                     const OuterProduct<Real>* outer);
   template <class Real>
-  void add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
+  void add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group,
+                const OuterProduct<Real>* outer);
   void end_rows(std::size_t begin, std::size_t end);
   void end_wide(std::size_t begin, std::size_t end);
   void multiply_rows(const MultiVector& x, MultiVector& y, std::size_t begin, std::size_t end) const;

@@ -171,7 +171,11 @@ template <class Real>
 void MeanDilatation<Real>::linearise(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K) {
   constexpr std::size_t lanes = Group::lanes;
   for (std::size_t s = begin * lanes; s < end * lanes; s += element_points) {
-    linear_[s / element_points] = value(group, x, s);
+    const Value at = value(group, x, s);
+    pressure_[s / element_points] = at.pressure;
+    OuterProduct<Real>& outer = outer_[s / element_points];
+    outer.k = at.stiffness;
+    element_volume_gradient(group, x, s, outer.g);
     for (std::size_t q = s; q < s + element_points; ++q) {
       Real k[edge_entries] = {};
       add_geometric_stiffness(Tensions<Real>{{}, pressure(q)}, volume_kinematics_of(group, x, q).e, k);
@@ -182,33 +186,31 @@ void MeanDilatation<Real>::linearise(const Group& group, const Real* x, std::siz
 }
 
 template <class Real>
-void MeanDilatation<Real>::add_force_differential(const Group& group, const Real* x, const Real* dx, bool positive,
-                                                  std::size_t begin, std::size_t end, Real* corner) const {
-  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; s += element_points) {
-    Real gradient[element_points][12], change = 0;
-    for (std::size_t q = 0; q < element_points; ++q) {
-      volume_gradient(group, x, s + q, gradient[q]);
-      for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t i = 0; i < 3; ++i)
-          change += gradient[q][3 * c + i] * dx[3 * static_cast<std::size_t>(group.node[c][s + q]) + i];
-    }
-    const Real stiffness = linear_[s / element_points].stiffness;
-    change *= positive ? std::max(stiffness, Real(0)) : stiffness;
-    Real* to = corner + 3 * (group.first_corner + 4 * s);
-    for (std::size_t q = 0; q < element_points; ++q)
-      for (std::size_t i = 0; i < 12; ++i) to[12 * q + i] -= change * gradient[q][i];
+void MeanDilatation<Real>::project() {
+  for (OuterProduct<Real>& outer : outer_) outer.k = std::max(outer.k, Real(0));
+}
+
+template <class Real>
+void MeanDilatation<Real>::add_force_differential(const Group& group, const VirtualCorners<Real>& corners,
+                                                  const Real* dx, std::size_t begin, std::size_t end,
+                                                  Real* of_element) const {
+  for (std::size_t s = begin * Group::lanes; s < std::min(end * Group::lanes, group.size()); s += element_points) {
+    const auto& [k, g] = outer_[s / element_points];
+    const std::size_t e = element_at(group, s);
+    const QuadraticNodes& nodes = corners.nodes_of(e);
+    Real change = 0;
+    for (std::size_t a = 0; a < 10; ++a)
+      for (std::size_t i = 0; i < 3; ++i) change += g[3 * a + i] * dx[3 * static_cast<std::size_t>(nodes[a]) + i];
+    change *= k;
+    for (std::size_t i = 0; i < 30; ++i) of_element[30 * e + i] -= change * g[i];
   }
 }
 
 template <class Real>
-void MeanDilatation<Real>::add_stiffness(const Group& group, const Real* x, bool positive, std::size_t s,
-                                         QuadraticMatrix<Real>& K) const {
-  Real g[30];
-  element_volume_gradient(group, x, s, g);
-  const Real stiffness = linear_[s / element_points].stiffness;
-  const Real factor = positive ? std::max(stiffness, Real(0)) : stiffness;
+void MeanDilatation<Real>::add_stiffness(std::size_t s, QuadraticMatrix<Real>& K) const {
+  const auto& [k, g] = outer_[s / element_points];
   for (std::size_t r = 0; r < 30; ++r)
-    for (std::size_t c = 0; c < 30; ++c) K[r][c] += factor * g[r] * g[c];
+    for (std::size_t c = 0; c < 30; ++c) K[r][c] += k * g[r] * g[c];
 }
 
 /// κ̄ψ''/V g·Z⁻¹M⁻¹g of an element, exact for its part of the stiffness, and |d²J| ≤ 2 σ1 |dF|² at the worst point.

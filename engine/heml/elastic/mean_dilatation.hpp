@@ -9,6 +9,7 @@
 // which bend without shear, are of that kind: a beam of one element across would be 50 % too soft.
 #include <heml/base/shared.hpp>
 #include <heml/elastic/group_loops.hpp>
+#include <heml/elastic/outer_product.hpp>
 #include <heml/elastic/step_weights.hpp>
 #include <heml/math/bytes.hpp>
 #include <vector>
@@ -49,20 +50,26 @@ class MeanDilatation {
                             const Real* x, std::size_t begin, std::size_t end, Real* bounds) const;
 
   /// To be called before linearise().
-  void resize(const Group& group) { linear_.resize(group.volume.size() / 4); }
-  /// Evaluates p and ψ'' at x for the calls below, and adds p V_q ∇²J_q to the stiffness of every slot
+  void resize(const Group& group) {
+    pressure_.resize(group.volume.size() / 4);
+    outer_.resize(group.volume.size() / 4);
+  }
+  /// Evaluates p and (κ̄ψ''/V) g gᵀ at x for the calls below, and adds p V_q ∇²J_q to the stiffness of every slot
   /// (elastic/edge_stiffness.hpp).
   void linearise(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K);
-  /// Adds −g (κ̄ψ''/V) gᵀdx to the corner forces; x: the point of linearise(). positive: negative ψ'' counts as 0.
-  void add_force_differential(const Group& group, const Real* x, const Real* dx, bool positive, std::size_t begin,
-                              std::size_t end, Real* corner) const;
+  /// Negative ψ'' counts as 0 from here to the next linearise().
+  void project();
+  /// Adds −g (κ̄ψ''/V) gᵀdx to the forces at the nodes of each element, 30 an element of the body.
+  void add_force_differential(const Group& group, const VirtualCorners<Real>& corners, const Real* dx,
+                              std::size_t begin, std::size_t end, Real* of_element) const;
   /// Adds (κ̄ψ''/V) g gᵀ of the element whose first slot is given.
-  void add_stiffness(const Group& group, const Real* x, bool positive, std::size_t first_slot,
-                     QuadraticMatrix<Real>& K) const;
+  void add_stiffness(std::size_t first_slot, QuadraticMatrix<Real>& K) const;
+  /// (κ̄ψ''/V) g gᵀ of each element of the group.
+  const OuterProduct<Real>* outer_products() const { return outer_.data(); }
   /// p of a slot at the point of linearise(), Pa.
-  Real pressure(std::size_t s) const { return linear_[s / 4].pressure; }
+  Real pressure(std::size_t s) const { return pressure_[s / 4]; }
   const Real* kappa() const { return kappa_.data(); }  ///< κ̄ of each slot, padded
-  std::size_t bytes() const { return bytes_of(kappa_, linear_); }
+  std::size_t bytes() const { return bytes_of(kappa_, pressure_, outer_); }
 
  private:
   struct Value {
@@ -73,7 +80,9 @@ class MeanDilatation {
   std::vector<Real> kappa_;
   VolumeTerm term_;
   bool continuation_;
-  std::vector<Value> linear_;  ///< of each element, at the point of linearise()
+  // Of each element, at the point of linearise().
+  std::vector<Real> pressure_;
+  std::vector<OuterProduct<Real>> outer_;
 };
 
 }  // namespace heml
