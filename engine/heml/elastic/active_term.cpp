@@ -66,15 +66,15 @@ bool ActiveTerm<Real>::forces(const Group& group, const Real* x, std::size_t beg
 }
 
 template <class Real>
-void ActiveTerm<Real>::stiffness(const Group& group, const Real*, std::size_t begin, std::size_t end, Real* K,
-                                 bool add) const {
+void ActiveTerm<Real>::stiffness(const Group& group, const Real*, std::size_t begin, std::size_t end, Real scale,
+                                 Real* K, bool add) const {
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
     const auto rest = rest_shape(group, s);
     Real k[edge_entries] = {};
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b <= a; ++b)
         for (int i = 0; i < 3; ++i)
-          k[edge_entry(3 * a + i, 3 * b + i)] = rest.volume * stress_ * rest.fibre[a] * rest.fibre[b];
+          k[edge_entry(3 * a + i, 3 * b + i)] = scale * (rest.volume * stress_ * rest.fibre[a] * rest.fibre[b]);
     write_edge_stiffness(k, s, K, add);
   }
 }

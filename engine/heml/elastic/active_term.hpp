@@ -37,7 +37,7 @@ class ActiveTerm final : public GroupTerm<Real> {
 
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
               bool add) const override;
-  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
+  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real scale, Real* K,
                  bool add) const override;
   void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,
                         Real* bounds, bool add) const override;

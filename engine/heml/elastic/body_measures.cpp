@@ -40,10 +40,12 @@ double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& t
     for (const auto& term : part.terms)
       if (term->stores() == stored)
         team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
-          term->energies(*part.group, x, begin, end, packet_energy_.data(), true);
+          term->energies(*part.group, x, begin, end, 1.0, packet_energy_.data(), true);
         });
     if (stored && part.dilatation)
-      part.dilatation->add_energies(*part.group, x, 0, part.group->packets(), packet_energy_.data());
+      team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+        part.dilatation->add_energies(*part.group, x, begin, end, packet_energy_.data());
+      });
     for (const double of_packet : packet_energy_) sum += of_packet;
     if (!stored && part.flow) sum += part.flow->trial_potential(*part.group);
   }
@@ -66,7 +68,7 @@ double ElasticBody<Real>::active_energy(const Real* x, ThreadTeam& team) {
   for (const Part& part : parts_) {
     if (!part.active) continue;
     std::vector<double> of_packet(part.group->packets(), 0.0);
-    part.active->energies(*part.group, x, 0, part.group->packets(), of_packet.data(), true);
+    part.active->energies(*part.group, x, 0, part.group->packets(), 1.0, of_packet.data(), true);
     sum = std::accumulate(of_packet.begin(), of_packet.end(), sum);
   }
   return sum;

@@ -19,7 +19,7 @@ void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
     part.stiffness.resize(edge_entries * part.group->volume.size());
     for (std::size_t k = 0; k < part.terms.size(); ++k)
       team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes, [&](std::size_t begin, std::size_t end) {
-        part.terms[k]->stiffness(*part.group, x, begin, end, part.stiffness.data(), k > 0);
+        part.terms[k]->stiffness(*part.group, x, begin, end, Real(1), part.stiffness.data(), k > 0);
       });
     if (part.flows_within_steps)
       team.parallel_for(part.group->packets(), grain_ / 16 / part.group->lanes,

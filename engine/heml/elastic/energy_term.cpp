@@ -114,14 +114,14 @@ HEML_WIDE bool energy_forces(const L& law, const ElementGroup<Real>& group, cons
 
 template <class Real, class L>
 HEML_WIDE void energy_stiffness(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                                std::size_t end, Real* K, bool add) {
-  group_stiffness<EnergyPack<Real>, L>(PackedLaw<EnergyPack<Real>, L>(law), group, x, begin, end, K, add);
+                                std::size_t end, Real scale, Real* K, bool add) {
+  group_stiffness<EnergyPack<Real>, L>(PackedLaw<EnergyPack<Real>, L>(law), group, x, begin, end, scale, K, add);
 }
 
 template <class Real, class L>
 HEML_WIDE void energy_energies(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                               std::size_t end, double* of_packet, bool add) {
-  group_energy<EnergyPack<Real>, L>(PackedLaw<EnergyPack<Real>, L>(law), group, x, begin, end, of_packet, add);
+                               std::size_t end, double scale, double* of_packet, bool add) {
+  group_energy<EnergyPack<Real>, L>(PackedLaw<EnergyPack<Real>, L>(law), group, x, begin, end, scale, of_packet, add);
 }
 
 template <class Real, class L>
@@ -171,16 +171,16 @@ class EnergyTerm final : public GroupTerm<Real> {
     return energy_forces<Real>(law_, group, x, begin, end, corner, add);
   }
 
-  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
+  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real scale, Real* K,
                  bool add) const override {
-    if (has_avx2()) return energy_stiffness<Real>(law_, group, x, begin, end, K, add);
-    GroupTerm<Real>::stiffness(group, x, begin, end, K, add);
+    if (has_avx2()) return energy_stiffness<Real>(law_, group, x, begin, end, scale, K, add);
+    GroupTerm<Real>::stiffness(group, x, begin, end, scale, K, add);
   }
 
-  void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
+  void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double scale, double* of_packet,
                 bool add) const override {
-    if (has_avx2()) return energy_energies<Real>(law_, group, x, begin, end, of_packet, add);
-    GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
+    if (has_avx2()) return energy_energies<Real>(law_, group, x, begin, end, scale, of_packet, add);
+    GroupTerm<Real>::energies(group, x, begin, end, scale, of_packet, add);
   }
 
   void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin, std::size_t end,

@@ -141,11 +141,26 @@ template <class P, class L>
   return L::always_valid || valid.all();
 }
 
-/// Stiffness of packets [begin, end) at x into K (elastic/edge_stiffness.hpp), overwritten or added to.
+/// Writes the stiffness of the elements in the lanes of a pack, or adds it. first: their lane in packet p.
+template <class P>
+[[gnu::always_inline]] inline void write_packed_stiffness(const P (&k)[edge_entries], std::size_t p, std::size_t first,
+                                                          Lane<P>* K, bool add) {
+  constexpr std::size_t lanes = ElementGroup<Lane<P>>::lanes;
+  Lane<P>* to = K + edge_entries * lanes * p + first;
+  for (std::size_t i = 0; i < edge_entries; ++i) {
+    typename P::Vector before;
+    __builtin_memcpy(&before, to + lanes * i, sizeof before);
+    const typename P::Vector sum = add ? k[i].v + before : k[i].v;
+    __builtin_memcpy(to + lanes * i, &sum, sizeof sum);
+  }
+}
+
+/// `scale` times the stiffness of packets [begin, end) at x into K (elastic/edge_stiffness.hpp), overwritten or added
+/// to.
 template <class P, class L>
 [[gnu::always_inline]] inline void group_stiffness(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
-                                                   const Lane<P>* x, std::size_t begin, std::size_t end, Lane<P>* K,
-                                                   bool add) {
+                                                   const Lane<P>* x, std::size_t begin, std::size_t end, Lane<P> scale,
+                                                   Lane<P>* K, bool add) {
   using Real = Lane<P>;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
   for (std::size_t p = begin; p < end; ++p) {
@@ -156,22 +171,18 @@ template <class P, class L>
       P k[edge_entries];
       for (P& entry : k) entry = P(0);
       add_edge_stiffness<P>(law.at(p * lanes + first), kinematics, at.rest, k);
-      Real* to = K + edge_entries * lanes * p + first;
-      for (std::size_t i = 0; i < edge_entries; ++i) {
-        typename P::Vector before;
-        __builtin_memcpy(&before, to + lanes * i, sizeof before);
-        const typename P::Vector sum = add ? k[i].v + before : k[i].v;
-        __builtin_memcpy(to + lanes * i, &sum, sizeof sum);
-      }
+      for (P& entry : k) entry *= P(scale);
+      write_packed_stiffness(k, p, first, K, add);
     }
   }
 }
 
-/// Energy of the law in each of packets [begin, end), J, summed in double into of_packet, overwritten or added to.
+/// `scale` times the energy of the law in each of packets [begin, end), J, summed in double into of_packet, overwritten
+/// or added to.
 template <class P, class L>
 [[gnu::always_inline]] inline void group_energy(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
-                                                const Lane<P>* x, std::size_t begin, std::size_t end, double* of_packet,
-                                                bool add) {
+                                                const Lane<P>* x, std::size_t begin, std::size_t end, double scale,
+                                                double* of_packet, bool add) {
   using Real = Lane<P>;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
   for (std::size_t p = begin; p < end; ++p) {
@@ -186,7 +197,7 @@ template <class P, class L>
     double sum = add ? of_packet[p] : 0.0;
     const std::size_t used = std::min(lanes, group.size() - p * lanes);  // padding repeats the last element
     for (std::size_t l = 0; l < used; ++l)
-      sum += static_cast<double>(packet.volume[l]) * static_cast<double>(density[l]);
+      sum += scale * (static_cast<double>(packet.volume[l]) * static_cast<double>(density[l]));
     of_packet[p] = sum;
   }
 }

@@ -34,8 +34,8 @@ bool GroupTerm<Real>::forces(const Group& group, const Real* x, std::size_t begi
 }
 
 template <class Real>
-void GroupTerm<Real>::stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
-                                bool add) const {
+void GroupTerm<Real>::stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real scale,
+                                Real* K, bool add) const {
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
     const auto rest = rest_shape(group, s);
     const auto kinematics = full_kinematics(group, x, s, rest);
@@ -48,18 +48,19 @@ void GroupTerm<Real>::stiffness(const Group& group, const Real* x, std::size_t b
               kinematics, de, f);
         },
         k);
+    for (Real& entry : k) entry *= scale;
     write_edge_stiffness(k, s, K, add);
   }
 }
 
 template <class Real>
-void GroupTerm<Real>::energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
-                               bool add) const {
+void GroupTerm<Real>::energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double scale,
+                               double* of_packet, bool add) const {
   for (std::size_t p = begin; p < end; ++p) {
     double sum = add ? of_packet[p] : 0.0;
     for (std::size_t s = p * Group::lanes; s < std::min((p + 1) * Group::lanes, group.size()); ++s) {
       const auto rest = rest_shape(group, s);
-      sum += energy(group, s, full_kinematics(group, x, s, rest), rest);
+      sum += scale * energy(group, s, full_kinematics(group, x, s, rest), rest);
     }
     of_packet[p] = sum;
   }

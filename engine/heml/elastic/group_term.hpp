@@ -54,11 +54,11 @@ class GroupTerm {
   virtual bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
                       bool add) const;
   /// See group_stiffness().
-  virtual void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
+  virtual void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real scale, Real* K,
                          bool add) const;
-  /// Sums of energy() over each packet into of_packet (#packets), overwritten or added to.
-  virtual void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
-                        bool add) const;
+  /// Sums of scale · energy() over each packet into of_packet (#packets), overwritten or added to.
+  virtual void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double scale,
+                        double* of_packet, bool add) const;
   /// Writes slot_frequency_bound() of the slots into bounds (8 a packet), or adds it. weights: w of the nodes; null: 1.
   virtual void frequency_bounds(const Group& group, const Real* weights, const Real* x, std::size_t begin,
                                 std::size_t end, Real* bounds, bool add) const;

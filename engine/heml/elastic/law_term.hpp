@@ -19,13 +19,13 @@ HEML_WIDE bool wide_forces(const LawSource<Real, L>& law, const ElementGroup<Rea
 }
 template <class Real, class L>
 HEML_WIDE void wide_stiffness(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
-                              std::size_t begin, std::size_t end, Real* K, bool add) {
-  group_stiffness<WidePack<Real>, L>({law, group}, group, x, begin, end, K, add);
+                              std::size_t begin, std::size_t end, Real scale, Real* K, bool add) {
+  group_stiffness<WidePack<Real>, L>({law, group}, group, x, begin, end, scale, K, add);
 }
 template <class Real, class L>
 HEML_WIDE void wide_energy(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
-                           std::size_t begin, std::size_t end, double* of_packet, bool add) {
-  group_energy<WidePack<Real>, L>({law, group}, group, x, begin, end, of_packet, add);
+                           std::size_t begin, std::size_t end, double scale, double* of_packet, bool add) {
+  group_energy<WidePack<Real>, L>({law, group}, group, x, begin, end, scale, of_packet, add);
 }
 template <class Real, class L>
 HEML_WIDE void wide_tensions(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
@@ -90,21 +90,22 @@ class LawTerm final : public GroupTerm<Real> {
     return wide_forces(source_, group, x, begin, end, corner, add);
   }
 
-  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
+  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real scale, Real* K,
                  bool add) const override {
-    if (has_avx2()) return wide_stiffness(source_, group, x, begin, end, K, add);
+    if (has_avx2()) return wide_stiffness(source_, group, x, begin, end, scale, K, add);
     for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
       const auto rest = rest_shape(group, s);
       Real k[edge_entries] = {};
       add_edge_stiffness(source_.at(group, s), full_kinematics(group, x, s, rest), rest, k);
+      for (Real& entry : k) entry *= scale;
       write_edge_stiffness(k, s, K, add);
     }
   }
 
-  void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
+  void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double scale, double* of_packet,
                 bool add) const override {
-    if (!has_avx2()) return GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
-    wide_energy(source_, group, x, begin, end, of_packet, add);
+    if (!has_avx2()) return GroupTerm<Real>::energies(group, x, begin, end, scale, of_packet, add);
+    wide_energy(source_, group, x, begin, end, scale, of_packet, add);
   }
 
   void packet_tensions(const Group& group, const Real* x, std::size_t begin, std::size_t end,

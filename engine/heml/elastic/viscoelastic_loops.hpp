@@ -48,6 +48,18 @@ template <class Real>
       T[i] += branches[b].decay * of_slot[12 + 6 * b + i] - branches[b].gain * of_slot[6 + i];
 }
 
+/// V/h (η/4 |ΔC|² + ζ/8 (tr ΔC)²) + ½ T*:G of an element, T* its constant tensions.
+template <class Real>
+[[gnu::always_inline]] inline Real memory_energy(const Real dG[6], const Real fixed[6], const Real G[6],
+                                                 const RestShape<Real>& rest, Real eta, Real zeta, Real per_step) {
+  Real factor[3][3], dC[6];
+  cholesky3(rest.A, factor);
+  into_rest_frame(factor, dG, dC);
+  const Real trace = dC[0] + dC[1] + dC[2];
+  return rest.volume * per_step * (eta / 4 * double_contraction3(dC, dC) + zeta / 8 * trace * trace) +
+         double_contraction3(fixed, G) / 2;
+}
+
 /// In the order of ViscoelasticTerm::tensions(), so that both give the same bits.
 template <bool relaxes, class Real>
 [[gnu::always_inline]] inline void memory_forces(const MemoryOf<Real>& of, const ElementGroup<Real>& group,
@@ -93,6 +105,107 @@ HEML_WIDE void wide_memory_forces(const MemoryOf<Real>& of, const ElementGroup<R
     memory_forces<true>(of, group, x, state, begin, end, corner, add);
   else
     memory_forces<false>(of, group, x, state, begin, end, corner, add);
+}
+
+/// What a packet's elements remember: Gram matrices, and the tensions that are constant during a step.
+template <class Real>
+struct PacketMemory {
+  static constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  Real before[6][lanes], fixed[6][lanes];
+
+  [[gnu::always_inline]] PacketMemory(const MemoryOf<Real>& of, const Real* state, std::size_t packet) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Real* of_slot = state + of.stride * (packet * lanes + l);
+      Real sum[6] = {};
+      add_fixed_tensions(of.branches, of_slot, sum);
+      for (std::size_t i = 0; i < 6; ++i) before[i][l] = of_slot[i], fixed[i][l] = sum[i];
+    }
+  }
+};
+
+/// Adds V/h (η (A_ab B + u_b u_aᵀ) + ζ u_a u_bᵀ), u_a = Σ_b A_ab e_b, B = Σ_a u_a e_aᵀ = F Fᵀ: the second derivatives
+/// of V/h (η/4 |ΔC|² + ζ/8 (tr ΔC)²) by the edges, but for those in the tensions.
+template <class Real>
+[[gnu::always_inline]] inline void add_viscous_stiffness(const Real e[3][3], const RestShape<Real>& rest, Real eta,
+                                                         Real zeta, Real per_step, Real K[edge_entries]) {
+  const Real* A = rest.A;
+  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+  Real u[3][3], B[3][3];
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) u[k][i] = a[k][0] * e[0][i] + a[k][1] * e[1][i] + a[k][2] * e[2][i];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) B[i][j] = u[0][i] * e[0][j] + u[1][i] * e[1][j] + u[2][i] * e[2][j];
+  const Real shear = rest.volume * per_step * eta, bulk = rest.volume * per_step * zeta;
+  for (int r = 0, at = 0; r < 9; ++r)
+    for (int c = 0; c <= r; ++c, ++at) {
+      const int k = r / 3, i = r % 3, l = c / 3, j = c % 3;
+      K[at] += shear * (a[k][l] * B[i][j] + u[l][i] * u[k][j]) + bulk * (u[k][i] * u[l][j]);
+    }
+}
+
+struct MemoryFamily {};
+template <class Real>
+using MemoryPack = Pack<Real, static_cast<int>(32 / sizeof(Real)), MemoryFamily>;
+
+/// `scale` times the stiffness without the law's part, into K or added to it.
+template <class Real>
+HEML_WIDE void wide_memory_stiffness(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                                     const Real* state, std::size_t begin, std::size_t end, Real scale, Real* K,
+                                     bool add) {
+  using P = MemoryPack<Real>;
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
+  const auto pack_of = [](const Real* values) {
+    typename P::Vector v;
+    __builtin_memcpy(&v, values, sizeof v);
+    return P(v);
+  };
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    const PacketMemory<Real> memory(of, state, p);
+    for (std::size_t first = 0; first < lanes; first += width) {
+      const PackedElements<P, false> at(packet, first);
+      const auto kinematics =
+          element_kinematics<false, false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      P dG[6], k[edge_entries];
+      Tensions<P> t{};
+      for (std::size_t i = 0; i < 6; ++i) {
+        dG[i] = kinematics.G[i] - pack_of(memory.before[i] + first);
+        t.T[i] = pack_of(memory.fixed[i] + first);
+      }
+      add_viscous_tensions<P>(dG, at.rest, of.eta, of.zeta, of.per_step, t.T);
+      for (P& entry : k) entry = P(0);
+      add_viscous_stiffness<P>(kinematics.e, at.rest, of.eta, of.zeta, of.per_step, k);
+      add_geometric_stiffness(t, kinematics.e, k);
+      for (P& entry : k) entry *= P(scale);
+      write_packed_stiffness(k, p, first, K, add);
+    }
+  }
+}
+
+/// `scale` times the incremental potential without the law's part of each packet, J.
+template <class Real>
+HEML_WIDE void wide_memory_energies(const MemoryOf<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                                    const Real* state, std::size_t begin, std::size_t end, double scale,
+                                    double* of_packet, bool add) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    const PacketMemory<Real> memory(of, state, p);
+    Real of_slot[lanes];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto kinematics = element_kinematics<false, false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      Real dG[6], fixed[6];
+      for (std::size_t i = 0; i < 6; ++i) dG[i] = kinematics.G[i] - memory.before[i][l], fixed[i] = memory.fixed[i][l];
+      of_slot[l] = memory_energy(dG, fixed, kinematics.G, rest, of.eta, of.zeta, of.per_step);
+    }
+    double sum = add ? of_packet[p] : 0.0;
+    const std::size_t used = std::min(lanes, group.size() - p * lanes);  // padding repeats the last element
+    for (std::size_t l = 0; l < used; ++l) sum += scale * static_cast<double>(of_slot[l]);
+    of_packet[p] = sum;
+  }
 }
 
 /// Tensions with the law's wJ expressed as tensions, wJ (cross_a·cross_b) / (36 V J). J is taken as at least 0.05, so

@@ -122,6 +122,22 @@ bool ViscoelasticTerm<Real>::forces(const Group& group, const Real* x, std::size
 }
 
 template <class Real>
+void ViscoelasticTerm<Real>::stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                       Real scale, Real* K, bool add) const {
+  if (!has_avx2()) return GroupTerm<Real>::stiffness(group, x, begin, end, scale, K, add);
+  if (!branches_.empty()) law_->stiffness(group, x, begin, end, scale * weight_, K, add);
+  wide_memory_stiffness(memory(), group, x, state_.data(), begin, end, scale, K, add || !branches_.empty());
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::energies(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                                      double scale, double* of_packet, bool add) const {
+  if (!has_avx2()) return GroupTerm<Real>::energies(group, x, begin, end, scale, of_packet, add);
+  if (!branches_.empty()) law_->energies(group, x, begin, end, scale * static_cast<double>(weight_), of_packet, add);
+  wide_memory_energies(memory(), group, x, state_.data(), begin, end, scale, of_packet, add || !branches_.empty());
+}
+
+template <class Real>
 Tensions<Real> ViscoelasticTerm<Real>::tensions(const Group& group, std::size_t s,
                                                 const ElementKinematics<Real>& kinematics,
                                                 const RestShape<Real>& rest) const {
@@ -200,15 +216,11 @@ void ViscoelasticTerm<Real>::damping_bounds(const Group& group, const Real* weig
 template <class Real>
 double ViscoelasticTerm<Real>::energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                                       const RestShape<Real>& rest) const {
-  Real dG[6], dC[6], factor[3][3];
+  Real dG[6];
   strain_change(s, kinematics, dG);
-  cholesky3(rest.A, factor);
-  into_rest_frame(factor, dG, dC);
-  const Real trace = dC[0] + dC[1] + dC[2];
-  const Real viscous = rest.volume * per_step_ * (eta_ / 4 * double_contraction3(dC, dC) + zeta_ / 8 * trace * trace);
-  const Real fixed = double_contraction3(fixed_tensions(s).T, kinematics.G) / 2;
+  const Real own = memory_energy(dG, fixed_tensions(s).T, kinematics.G, rest, eta_, zeta_, per_step_);
   const double law = branches_.empty() ? 0 : law_->energy(group, s, kinematics, rest);
-  return static_cast<double>(viscous + fixed) + static_cast<double>(weight_) * law;
+  return static_cast<double>(own) + static_cast<double>(weight_) * law;
 }
 
 /// put_total_tensions() of the isochoric law.

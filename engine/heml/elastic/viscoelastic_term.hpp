@@ -36,6 +36,10 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
 
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
               bool add) const override;
+  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real scale, Real* K,
+                 bool add) const override;
+  void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double scale, double* of_packet,
+                bool add) const override;
   Tensions<Real> tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                           const RestShape<Real>& rest) const override;
   Tensions<Real> tension_differential(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
