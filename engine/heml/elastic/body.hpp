@@ -59,7 +59,8 @@ struct KernelInfo {
   std::string law;
   std::string kernel;  ///< "fans": fan kernels; "points": point kernels, or the loops that replace them; "corners":
                        ///< loops over corner forces; "fans and corners": fan kernels, loops for nodal pressure or
-                       ///< active stress; "springs": along edges
+                       ///< active stress; "points and corners": point kernels, loops for other terms than the law;
+                       ///< "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
   double bytes_per_tet;  ///< read and written in one force evaluation, each array counted once; 0 for springs
@@ -270,18 +271,23 @@ class ElasticBody {
     std::unique_ptr<MeanDilatation<Real>> dilatation;  ///< null: the points have all of the volume term
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
     bool in_fans;                                      ///< fans_ evaluates the forces of all passive terms
-    PointForces<Real> points;                          ///< of the law, where points of quadratic elements have a kernel
+    PointForces<Real> points;                          ///< of the law, the first of the terms
     ActiveTerm<Real>* active = nullptr;                ///< the last of the terms, or null
     bool flows_within_steps = false;                   ///< of implicit methods; else after them
 
     Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
-    /// Whether point kernels take what forces() evaluates. A volume term that is not quadratic is a term of its own.
-    bool is_for_points() const { return points.law && terms.size() == 1; }
-    bool in_points() const { return points.kernel && is_for_points(); }
-    std::size_t first_loop() const { return in_fans ? terms.size() - (active ? 1 : 0) : 0; }  ///< of forces()
+    bool in_points() const { return points.kernel != nullptr; }
+    /// The first of the terms whose forces are those of loops.
+    std::size_t first_loop() const { return in_fans ? terms.size() - (active ? 1 : 0) : in_points() ? 1 : 0; }
+    /// κ̄ of each slot, if point kernels take it: of a quadratic volume term, which is no term of its own.
+    const Real* kappa_of_points() const {
+      return in_points() && dilatation && dilatation->is_quadratic() ? dilatation->kappa() : nullptr;
+    }
     SlotStates<Real> slot_states();     ///< of all terms and the flow
     void reset_history(const Real* x);  ///< of all terms and the flow
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
+    /// Of quadratic elements.
+    bool has_virtual_loops() const { return terms.size() > first_loop() || (dilatation && !kappa_of_points()); }
   };
   static constexpr std::size_t grain_ = 2048;       ///< min. elements per thread, which outweigh the cost of waking it
   static constexpr std::size_t large_body_ = 8192;  ///< elements from which a team builds the layout

@@ -44,16 +44,17 @@ bool ElasticBody<Real>::virtual_corner_forces(const Real* x, Real* f, bool add, 
   };
   for (const Part& part : parts_) {
     const ElementGroup<Real>& group = *part.group;
-    if (part.in_points()) {  // nothing is left of these
+    if (!part.has_virtual_loops()) {  // nothing is left of these
       for (std::size_t s = 0; s < group.size(); s += element_points)
         std::fill_n(of_element + 30 * element_at(group, s), 30, Real(0));
       continue;
     }
-    for (const auto& term : part.terms)
+    const std::size_t first = part.first_loop();
+    for (std::size_t k = first; k < part.terms.size(); ++k)
       team.parallel_for(group.packets(), grain_ / group.lanes, [&](std::size_t begin, std::size_t end) {
-        note(term->forces(group, y, begin, end, corner, term != part.terms.front()));
+        note(part.terms[k]->forces(group, y, begin, end, corner, k > first));
       });
-    if (part.dilatation)
+    if (part.dilatation && !part.kappa_of_points())
       team.parallel_for(group.packets(), grain_ / 4 / group.lanes, [&](std::size_t begin, std::size_t end) {
         note(part.dilatation->add_forces(group, y, begin, end, corner));
       });
@@ -63,7 +64,7 @@ bool ElasticBody<Real>::virtual_corner_forces(const Real* x, Real* f, bool add, 
   return valid;
 }
 
-/// Of quadratic elements: point kernels take what they can.
+/// Of quadratic elements: point kernels take the laws, loops over virtual corners the other terms.
 template <class Real>
 bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& team) {
   const PointLayout& points = layout_->joints.points;
@@ -72,16 +73,15 @@ bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& tea
   team.parallel_for(points.blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const Part& part = parts_[points.blocks[b].part];
-      const Real* kappa = part.dilatation ? part.dilatation->kappa() : nullptr;
-      const PointBlock<Real> block =
-          point_block<Real>(*part.group, points, b, part.points.parameters, kappa, shared_force_.data());
+      const PointBlock<Real> block = point_block<Real>(*part.group, points, b, part.points.parameters,
+                                                       part.kappa_of_points(), shared_force_.data());
       if (!part.points.kernel(part.points.law.get(), block, x, f)) valid.store(false, std::memory_order_relaxed);
     }
   });
   const bool has_points = !points.blocks.empty();
   if (has_points) points.nodes.template sum_shared<3>(shared_force_.data(), f, team);
-  const bool all_in_points = std::all_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.in_points(); });
-  if (!all_in_points && !virtual_corner_forces(x, f, has_points, team)) valid = false;
+  const bool has_loops = std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.has_virtual_loops(); });
+  if (has_loops && !virtual_corner_forces(x, f, has_points, team)) valid = false;
   return valid;
 }
 
@@ -143,9 +143,9 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
       } else {
         info.instructions = part.in_points() ? name_of(part.points.instruction_set) : wide_instructions();
       }
-      if (part.is_for_points()) info.kernel = "points";
+      if (part.points.law) info.kernel = part.terms.size() == 1 ? "points" : "points and corners";
       info.bytes_per_tet +=
-          part.in_points() ? of_points : corners * static_cast<double>(part.terms.size() - part.first_loop());
+          (part.in_points() ? of_points : 0) + corners * static_cast<double>(part.terms.size() - part.first_loop());
       info.elements /= points_per_element();
       info.bytes_per_tet *= static_cast<double>(points_per_element());
     }

@@ -36,12 +36,16 @@ PointForces<Real> point_forces(const Material& material, bool continuation, Inst
   result.instruction_set = resolve(isa);
   const LawInfo& info = *find_law(material.law);
   const std::vector<ParameterSlot> slots = parameter_slots(material, info);
+  const bool isochoric = info.has_volume_term && material.volume_term != VolumeTerm::quadratic;
+  const std::optional<std::size_t> omitted = isochoric ? volume_parameter(material, info) : std::nullopt;
   for (std::size_t k = 0; k < material.fields.size(); ++k) {
     const ParameterInfo* parameter = slots[material.fields[k].parameter].info;
-    if (!parameter->is_list())
+    if (!parameter->is_list() && material.fields[k].parameter != omitted)
       result.parameters.push_back({k, static_cast<std::size_t>(parameter - info.parameters.data())});
   }
-  with_law<Real>(material, continuation, [&]<class L>(const L& law) {
+  with_law<Real>(material, continuation, [&]<class L>(L law) {
+    if constexpr (L::has_volume_term)
+      if (isochoric) law.kappa = 0;
     result.law = std::make_shared<const L>(law);
 #if HEML_X86_KERNELS
     if (result.instruction_set == InstructionSet::avx512)

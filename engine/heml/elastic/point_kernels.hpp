@@ -1,7 +1,7 @@
 #pragma once
 // Forces of a law at the points of quadratic elements, straight from the elements' ten nodes to them. Each instruction
 // set has a file of its own (engine/CMakeLists.txt); loops over virtual corners (group_loops.hpp) do the rest: other
-// terms, laws by expression, processors without AVX2.
+// terms, volume terms that are not quadratic, laws by expression, processors without AVX2.
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/elastic/point_layout.hpp>
 #include <heml/elastic/quadratic_map.hpp>
@@ -49,8 +49,8 @@ PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout&
 template <class Real>
 using PointKernel = bool (*)(const void* law, const PointBlock<Real>& block, const Real* x, Real* f);
 
-/// The law of a material that point kernels take, else null; and the kernel, null where the processor or `portable` has
-/// none and loops over virtual corners compute the same.
+/// The law of a material that point kernels take, without a volume term that is a term of its own, else null; and the
+/// kernel, null where the processor or `portable` has none and loops over virtual corners compute the same.
 template <class Real>
 struct PointForces {
   PointKernel<Real> kernel = nullptr;

@@ -15,13 +15,14 @@ double cost_of(const KernelInfo& kernel, const WorldSetup& setup) {
   const Material& material = setup.materials[kernel.material].material;
   const ForceCost law = find_law(material.law)->cost;
   const bool in_loops = kernel.kernel == "corners";
-  const double a_term = in_loops ? a_loop : a_pass;
+  const bool terms_in_loops = in_loops || kernel.kernel == "points and corners";
+  const double a_term = terms_in_loops ? a_loop : a_pass;
   double cost = step_alone + (setup.solver.single_precision ? law.in_float : law.in_double);
   if (in_loops) cost += a_loop;
-  if (kernel.kernel == "points") cost += a_point;
+  if (kernel.kernel.starts_with("points")) cost += a_point;
   if (material.volume_term != VolumeTerm::quadratic) cost += a_term;
   if (!material.relaxation.empty())  // in loops the law is asked twice more
-    cost += a_term * (in_loops ? 3 : 1 + static_cast<double>(material.relaxation.size()));
+    cost += a_term * (terms_in_loops ? 3 : 1 + static_cast<double>(material.relaxation.size()));
   else if (material.viscosity > 0 || material.bulk_viscosity > 0)
     cost += a_term;
   if (material.plasticity) cost += a_loop;

@@ -164,7 +164,7 @@ TEST_CASE("point kernels: an undefined law is told of one element, whichever lan
   }
 }
 
-TEST_CASE("point kernels: other terms take the loops") {
+TEST_CASE("point kernels: other terms take the loops, beside the law in its kernel") {
   std::mt19937_64 random(64);
   const Sample sample(random);
   const InstructionSet best = instruction_sets().back();
@@ -174,18 +174,22 @@ TEST_CASE("point kernels: other terms take the loops") {
   const auto kernel_of = [&](const Material& material) {
     return sample.of<double>({material, material}, false, false, best)->kernels()[0].kernel;
   };
-  CHECK(kernel_of(viscous) == "corners");
-  CHECK(kernel_of(logarithmic) == "corners");
-  // The two side by side: each adds up to what it is alone.
+  CHECK(kernel_of(viscous) == "points and corners");
+  CHECK(kernel_of(logarithmic) == "points and corners");
+  // Side by side with one of a law alone: each adds up to what it is alone.
   ThreadTeam team(1);
   const Material plain = sample_material("neo_hookean_iso");
   std::vector<double> f(sample.body.x.size()), expected(f.size());
-  const auto mixed = sample.of<double>({plain, logarithmic}, false, false, best);
-  CHECK(mixed->kernels().size() == 2);
-  mixed->forces(sample.body.x.data(), f.data(), team);
-  sample.of<double>({plain, logarithmic}, false, false, InstructionSet::portable)
-      ->forces(sample.body.x.data(), expected.data(), team);
-  for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - expected[i]) <= 1e-12 * test::largest(expected));
+  for (const bool pressure : {false, true})
+    for (const Material& other : {viscous, logarithmic}) {
+      const auto mixed = sample.of<double>({plain, other}, false, pressure, best),
+                 loops = sample.of<double>({plain, other}, false, pressure, InstructionSet::portable);
+      CHECK(mixed->kernels().size() == 2);
+      for (const auto& body : {mixed.get(), loops.get()}) body->begin_step(0.01);
+      mixed->forces(sample.body.x.data(), f.data(), team);
+      loops->forces(sample.body.x.data(), expected.data(), team);
+      for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - expected[i]) <= 1e-12 * test::largest(expected));
+    }
 }
 
 }  // namespace heml::point_kernels_test
