@@ -117,7 +117,7 @@ class ElasticBody {
   /// Evaluates the stiffness K = ∂²U/∂x² (N/m) at x, for the calls below until the next linearise().
   void linearise(const Real* x, ThreadTeam& team);
   /// Projects the part of K of every element and spring to positive semidefinite (projection.hpp); `none` and `shift`
-  /// do nothing. Averaged nodal pressure is not projected.
+  /// do nothing. What averaged nodal pressure couples is not projected.
   void project(Projection projection, ThreadTeam& team);
   /// Writes −K dx (N), the change of the forces with a change dx of the positions, into out (3 #V, overwritten).
   void force_differential(const Real* dx, Real* out, ThreadTeam& team);

@@ -15,7 +15,8 @@ void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
   linearisation_point_.assign(x, x + 3 * layout_->mesh.nodes.size());
   projected_ = false;
   if (pressure_) pressure_->linearise(x, team);
-  for (Part& part : parts_) {
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    Part& part = parts_[p];
     part.stiffness.resize(edge_entries * part.group->volume.size());
     for (std::size_t k = 0; k < part.terms.size(); ++k)
       team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes, [&](std::size_t begin, std::size_t end) {
@@ -26,6 +27,10 @@ void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
                         [&](std::size_t begin, std::size_t end) {
                           part.flow->add_stiffness(*part.group, x, begin, end, part.stiffness.data());
                         });
+    if (pressure_)
+      team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+        pressure_->linearise_group(p, x, begin, end, part.stiffness.data());
+      });
     if (part.dilatation) part.dilatation->resize(*part.group);
   }
   each_dilatation(team, [&](Part& part, std::size_t begin, std::size_t end) {
@@ -37,7 +42,8 @@ template <class Real>
 void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
   if (projection != Projection::element && projection != Projection::tension) return;
   projected_ = true;
-  for (Part& part : parts_) {
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    Part& part = parts_[p];
     if (part.dilatation) part.dilatation->project();
     team.parallel_for(part.group->volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
@@ -55,6 +61,7 @@ void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
             sum.wJ += t.wJ;
           }
           if (part.dilatation) sum.wJ += part.dilatation->pressure(s);
+          if (pressure_) sum.wJ += pressure_->pressure(p, s);
           clamp_tension(sum, kinematics, rest, k);
         }
         write_edge_stiffness(k, s, part.stiffness.data(), false);
@@ -80,10 +87,10 @@ void ElasticBody<Real>::force_differential(const Real* at_nodes, Real* out, Thre
     });
     return corners.sum(of_element, out, false, team);
   }
-  const Real* x = linearisation_point_.data();
-  if (pressure_) pressure_->add_force_differential(x, dx, corner, team);
+  if (pressure_) pressure_->add_force_differential(dx, corner, team);
   gather_corners(layout_->joints.corners, out, false, team);
-  if (!layout_->joints.springs.empty()) layout_->joints.springs.add_force_differential(x, dx, out, projected_, team);
+  if (!layout_->joints.springs.empty())
+    layout_->joints.springs.add_force_differential(linearisation_point_.data(), dx, out, projected_, team);
 }
 
 template <class Real>
@@ -109,7 +116,7 @@ void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementM
   const Part& part = parts_[p];
   Real k[edge_entries];
   read_edge_stiffness(part.stiffness.data(), s, k);
-  if (pressure_) pressure_->add_stiffness(p, linearisation_point_.data(), s, k);
+  if (pressure_) pressure_->add_stiffness(p, s, k);
   expand_edges(k, K);
 }
 

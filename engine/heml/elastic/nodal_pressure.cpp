@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/elastic/group_term.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
 #include <heml/elastic/volume_function.hpp>
 
@@ -57,6 +58,68 @@ HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real*
     write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), true);
   }
 }
+
+/// Changes of V J with changes dx of the positions, for every slot of packets [begin, end). gradient: V ∂J/∂e,
+/// [packet][9][lanes].
+template <class Real>
+[[gnu::always_inline]] inline void put_volume_changes(const ElementGroup<Real>& group, const Real* gradient,
+                                                      const Real* dx, std::size_t begin, std::size_t end,
+                                                      Real* of_slot) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, dx, p * lanes);
+    const Real* of_packet = gradient + 9 * lanes * p;
+    Real* to = of_slot + p * lanes;
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      Real sum = 0;
+      for (std::size_t r = 0; r < 9; ++r) sum += of_packet[lanes * r + l] * (packet.x[3 + r][l] - packet.x[r % 3][l]);
+      to[l] = sum;
+    }
+  }
+}
+template <class Real>
+void volume_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dx, std::size_t begin,
+                    std::size_t end, Real* of_slot) {
+  put_volume_changes(group, gradient, dx, begin, end, of_slot);
+}
+template <class Real>
+HEML_WIDE void wide_volume_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dx,
+                                   std::size_t begin, std::size_t end, Real* of_slot) {
+  put_volume_changes(group, gradient, dx, begin, end, of_slot);
+}
+
+/// Adds the corner forces of the mean change dp of the pressure of four nodes.
+template <class Real>
+[[gnu::always_inline]] inline void put_pressure_changes(const ElementGroup<Real>& group, const Real* gradient,
+                                                        const Real* dp, std::size_t begin, std::size_t end,
+                                                        Real* corner) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Real* of_packet = gradient + 9 * lanes * p;
+    Real sum[lanes] = {}, out[12][lanes];
+    for (const auto& list : group.node)
+      for (std::size_t l = 0; l < lanes; ++l) sum[l] += dp[list[p * lanes + l]];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Real mean = sum[l] / 4;
+      for (std::size_t r = 0; r < 9; ++r) out[3 + r][l] = -mean * of_packet[lanes * r + l];
+      for (std::size_t i = 0; i < 3; ++i) out[i][l] = -(out[3 + i][l] + out[6 + i][l] + out[9 + i][l]);
+    }
+    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), true);
+  }
+}
+template <class Real>
+void add_pressure_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dp, std::size_t begin,
+                          std::size_t end, Real* corner) {
+  put_pressure_changes(group, gradient, dp, begin, end, corner);
+}
+template <class Real>
+HEML_WIDE void add_wide_pressure_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dp,
+                                         std::size_t begin, std::size_t end, Real* corner) {
+  put_pressure_changes(group, gradient, dp, begin, end, corner);
+}
+
 /// Adds to bounds (8 a packet), with the largest stiffness κ ψ'' and the mean pressure of four nodes.
 template <class Real>
 [[gnu::always_inline]] inline void add_bounds(const ElementGroup<Real>& group, const Real* weights, const Real* x,
@@ -223,42 +286,46 @@ bool NodalPressure<Real>::add_forces(const Real* x, Real* corner, ThreadTeam& te
 template <class Real>
 void NodalPressure<Real>::linearise(const Real* x, ThreadTeam& team) {
   average(x, linear_, team);
+  node_stiffness_.resize(linear_.ratio.size());
+  for (std::size_t n = 0; n < node_stiffness_.size(); ++n)
+    node_stiffness_[n] = node_kappa_[n] * psi(linear_.ratio[n]).w2;
+  gradient_.resize(groups_.size());
+  for (std::size_t g = 0; g < groups_.size(); ++g) gradient_[g].resize(9 * groups_[g]->volume.size());
 }
 
 template <class Real>
-void NodalPressure<Real>::add_force_differential(const Real* x, const Real* dx, Real* corner, ThreadTeam& team) {
-  const auto change = [&](const ElementGroup<Real>& group, std::size_t s, const ElementKinematics<Real>& kinematics,
-                          Real(&de)[3][3]) {
-    const SlotNodes<Real> d(group, dx, s);
-    const Real* moved[3] = {d.x1, d.x2, d.x3};
-    for (int a = 0; a < 3; ++a)
-      for (int i = 0; i < 3; ++i) de[a][i] = moved[a][i] - d.x0[i];
-    return kinematics_differential(kinematics, de, group.volume[s]).J;
-  };
-  std::vector<Real> dp;
-  gather(dp, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
+void NodalPressure<Real>::linearise_group(std::size_t g, const Real* x, std::size_t begin, std::size_t end, Real* K) {
+  const ElementGroup<Real>& group = *groups_[g];
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t s = begin * lanes; s < end * lanes; ++s) {
     RestShape<Real> rest;
-    Real de[3][3];
-    return group.volume[s] * change(group, s, volume_kinematics(group, x, s, rest), de);
-  });
-  for (std::size_t n = 0; n < dp.size(); ++n)
-    dp[n] = node_volume_[n] > 0 ? node_kappa_[n] * psi(linear_.ratio[n]).w2 * dp[n] / node_volume_[n] : Real(0);
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const ElementGroup<Real>& group = *groups_[g];
-    team.parallel_for(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s) {
-        RestShape<Real> rest;
-        const auto kinematics = volume_kinematics(group, x, s, rest);
-        Real de[3][3], f[12], mean = 0;
-        change(group, s, kinematics, de);
-        for (const auto& list : group.node) mean += dp[static_cast<std::size_t>(list[s])] / 4;
-        corner_force_differential(Tensions<Real>{{}, pressure(linear_, g, s)}, Tensions<Real>{{}, mean}, kinematics, de,
-                                  f);
-        Real* to = corner + 3 * (group.first_corner + 4 * s);
-        for (int i = 0; i < 12; ++i) to[i] += f[i];
-      }
-    });
+    const auto kinematics = volume_kinematics(group, x, s, rest);
+    Real* gradient = &gradient_[g][9 * lanes * (s / lanes) + s % lanes];
+    for (std::size_t r = 0; r < 9; ++r) gradient[lanes * r] = kinematics.cross[r / 3][r % 3] / 6;
+    Real k[edge_entries] = {};
+    add_geometric_stiffness(Tensions<Real>{{}, pressure(g, s)}, kinematics.e, k);
+    write_edge_stiffness(k, s, K, true);
   }
+}
+
+template <class Real>
+void NodalPressure<Real>::add_force_differential(const Real* dx, Real* corner, ThreadTeam& team) {
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    team.parallel_for(
+        groups_[g]->packets(), slot_grain / ElementGroup<Real>::lanes, [&](std::size_t begin, std::size_t end) {
+          const auto work = has_avx2() ? wide_volume_changes<Real> : volume_changes<Real>;
+          work(*groups_[g], gradient_[g].data(), dx, begin, end, &of_corner_[groups_[g]->first_corner / 4]);
+        });
+  std::vector<Real> dp;
+  sum_at_nodes(corners_, of_corner_, dp, team);
+  for (std::size_t n = 0; n < dp.size(); ++n)
+    dp[n] = node_volume_[n] > 0 ? node_stiffness_[n] * dp[n] / node_volume_[n] : Real(0);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    team.parallel_for(groups_[g]->packets(), slot_grain / ElementGroup<Real>::lanes,
+                      [&](std::size_t begin, std::size_t end) {
+                        const auto work = has_avx2() ? add_wide_pressure_changes<Real> : add_pressure_changes<Real>;
+                        work(*groups_[g], gradient_[g].data(), dp.data(), begin, end, corner);
+                      });
 }
 
 template <class Real>
@@ -290,19 +357,13 @@ void NodalPressure<Real>::add_frequency_bounds(std::size_t g, const Real* weight
 }
 
 template <class Real>
-void NodalPressure<Real>::add_stiffness(std::size_t g, const Real* x, std::size_t s, Real K[edge_entries]) const {
+void NodalPressure<Real>::add_stiffness(std::size_t g, std::size_t s, Real K[edge_entries]) const {
   const ElementGroup<Real>& group = *groups_[g];
-  RestShape<Real> rest;
-  const auto kinematics = volume_kinematics(group, x, s, rest);
-  Real stiffness = 0;
-  for (const auto& list : group.node) {
-    const auto n = static_cast<std::size_t>(list[s]);
-    stiffness += node_kappa_[n] * psi(linear_.ratio[n]).w2 / 4;
-  }
-  Real gradient[1][9];  // of J
-  for (int r = 0; r < 9; ++r) gradient[0][r] = kinematics.cross[r / 3][r % 3] / (6 * rest.volume);
-  add_outer_products<1>(gradient, {{stiffness}}, rest.volume, K);
-  add_geometric_stiffness(Tensions<Real>{{}, pressure(linear_, g, s)}, kinematics.e, K);
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  Real stiffness = 0, gradient[1][9];
+  for (const auto& list : group.node) stiffness += node_stiffness_[static_cast<std::size_t>(list[s])] / 4;
+  for (std::size_t r = 0; r < 9; ++r) gradient[0][r] = gradient_[g][9 * lanes * (s / lanes) + lanes * r + s % lanes];
+  add_outer_products<1>(gradient, {{stiffness}}, 1 / group.volume[s], K);
 }
 
 template class NodalPressure<float>;

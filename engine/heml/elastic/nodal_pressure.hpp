@@ -30,14 +30,19 @@ class NodalPressure {
   /// Whether ψ is defined at every node of the last evaluation.
   bool is_defined() const;
 
-  /// Evaluates volume ratios and pressures at x for the two calls below, until the next linearise(). Other evaluations
+  /// Evaluates volume ratios and pressures at x for the calls below, until the next linearise(). Other evaluations
   /// between leave them.
   void linearise(const Real* x, ThreadTeam& team);
-  /// Adds −K dx (N) to the corner forces; x: the point of linearise().
-  void add_force_differential(const Real* x, const Real* dx, Real* corner, ThreadTeam& team);
-  /// Adds an approximation of one slot's stiffness (elastic/edge_stiffness.hpp) for preconditioners, without coupling
-  /// to other elements; κ ψ'' is averaged over its nodes. x: the point of linearise().
-  void add_stiffness(std::size_t group, const Real* x, std::size_t s, Real K[edge_entries]) const;
+  /// To be called after it for packets [begin, end) of each group: evaluates V_t ∇J_t, and adds p_t V_t ∇²J_t to the
+  /// stiffness of every slot (elastic/edge_stiffness.hpp). Threads: any, on disjoint ranges.
+  void linearise_group(std::size_t group, const Real* x, std::size_t begin, std::size_t end, Real* K);
+  /// Adds −Σ_a κ_a ψ''/ΣV_t g_a g_aᵀ dx (N) to the corner forces, g_a = Σ V_t ∇J_t.
+  void add_force_differential(const Real* dx, Real* corner, ThreadTeam& team);
+  /// Adds an approximation of that stiffness of one slot for preconditioners, without coupling to other elements; κ ψ''
+  /// is averaged over its nodes.
+  void add_stiffness(std::size_t group, std::size_t s, Real K[edge_entries]) const;
+  /// p_t of a slot at the point of linearise(), Pa.
+  Real pressure(std::size_t group, std::size_t s) const { return pressure(linear_, group, s); }
 
   double energy(const Real* x);  ///< J
   /// Evaluates volume ratios and pressures at x for add_frequency_bounds(), valid until the next evaluation.
@@ -48,7 +53,7 @@ class NodalPressure {
                             Real* bounds) const;
   std::size_t bytes() const {
     return bytes_of(kappa_, node_volume_, node_kappa_, last_.ratio, last_.pressure, linear_.ratio, linear_.pressure,
-                    of_corner_, stiffness_);
+                    of_corner_, stiffness_, gradient_, node_stiffness_);
   }
 
  private:
@@ -70,6 +75,8 @@ class NodalPressure {
   std::vector<Real> node_volume_, node_kappa_;  ///< #V: ΣV_t; κ_a
   NodeValues last_;                             ///< at the x of the last evaluation, scratch
   NodeValues linear_;                           ///< at the point of linearise()
+  std::vector<std::vector<Real>> gradient_;     ///< there, V ∂J/∂e of each group: [packet][9][lanes], m²
+  std::vector<Real> node_stiffness_;            ///< there, #V: κ_a ψ''
   std::vector<Real> of_corner_;                 ///< one a slot, scratch
   std::vector<Real> stiffness_;                 ///< #V, κ ψ'' of begin_bounds(), scratch
 };
