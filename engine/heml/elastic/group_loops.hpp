@@ -171,7 +171,8 @@ template <class P, class L>
       P k[edge_entries];
       for (P& entry : k) entry = P(0);
       add_edge_stiffness<P>(law.at(p * lanes + first), kinematics, at.rest, k);
-      for (P& entry : k) entry *= P(scale);
+      if (scale != Real(1))
+        for (P& entry : k) entry *= P(scale);
       write_packed_stiffness(k, p, first, K, add);
     }
   }

@@ -62,9 +62,8 @@ HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real*
 /// Changes of V J with changes dx of the positions, for every slot of packets [begin, end). gradient: V ∂J/∂e,
 /// [packet][9][lanes].
 template <class Real>
-[[gnu::always_inline]] inline void put_volume_changes(const ElementGroup<Real>& group, const Real* gradient,
-                                                      const Real* dx, std::size_t begin, std::size_t end,
-                                                      Real* of_slot) {
+[[gnu::always_inline]] inline void volume_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dx,
+                                                  std::size_t begin, std::size_t end, Real* of_slot) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, false> packet(group, dx, p * lanes);
@@ -79,19 +78,14 @@ template <class Real>
   }
 }
 template <class Real>
-void volume_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dx, std::size_t begin,
-                    std::size_t end, Real* of_slot) {
-  put_volume_changes(group, gradient, dx, begin, end, of_slot);
-}
-template <class Real>
 HEML_WIDE void wide_volume_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dx,
                                    std::size_t begin, std::size_t end, Real* of_slot) {
-  put_volume_changes(group, gradient, dx, begin, end, of_slot);
+  volume_changes(group, gradient, dx, begin, end, of_slot);
 }
 
 /// Adds the corner forces of the mean change dp of the pressure of four nodes.
 template <class Real>
-[[gnu::always_inline]] inline void put_pressure_changes(const ElementGroup<Real>& group, const Real* gradient,
+[[gnu::always_inline]] inline void add_pressure_changes(const ElementGroup<Real>& group, const Real* gradient,
                                                         const Real* dp, std::size_t begin, std::size_t end,
                                                         Real* corner) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
@@ -110,14 +104,9 @@ template <class Real>
   }
 }
 template <class Real>
-void add_pressure_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dp, std::size_t begin,
-                          std::size_t end, Real* corner) {
-  put_pressure_changes(group, gradient, dp, begin, end, corner);
-}
-template <class Real>
 HEML_WIDE void add_wide_pressure_changes(const ElementGroup<Real>& group, const Real* gradient, const Real* dp,
                                          std::size_t begin, std::size_t end, Real* corner) {
-  put_pressure_changes(group, gradient, dp, begin, end, corner);
+  add_pressure_changes(group, gradient, dp, begin, end, corner);
 }
 
 /// Adds to bounds (8 a packet), with the largest stiffness κ ψ'' and the mean pressure of four nodes.
@@ -310,22 +299,24 @@ void NodalPressure<Real>::linearise_group(std::size_t g, const Real* x, std::siz
 
 template <class Real>
 void NodalPressure<Real>::add_force_differential(const Real* dx, Real* corner, ThreadTeam& team) {
+  const auto each_packet = [&](std::size_t g, const auto& work) {
+    team.parallel_for(groups_[g]->packets(), slot_grain / ElementGroup<Real>::lanes, work);
+  };
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    team.parallel_for(
-        groups_[g]->packets(), slot_grain / ElementGroup<Real>::lanes, [&](std::size_t begin, std::size_t end) {
-          const auto work = has_avx2() ? wide_volume_changes<Real> : volume_changes<Real>;
-          work(*groups_[g], gradient_[g].data(), dx, begin, end, &of_corner_[groups_[g]->first_corner / 4]);
-        });
+    each_packet(g, [&, &group = *groups_[g], gradient = gradient_[g].data()](std::size_t begin, std::size_t end) {
+      Real* of_slot = &of_corner_[group.first_corner / 4];
+      if (has_avx2()) return wide_volume_changes(group, gradient, dx, begin, end, of_slot);
+      volume_changes(group, gradient, dx, begin, end, of_slot);
+    });
   std::vector<Real> dp;
   sum_at_nodes(corners_, of_corner_, dp, team);
   for (std::size_t n = 0; n < dp.size(); ++n)
     dp[n] = node_volume_[n] > 0 ? node_stiffness_[n] * dp[n] / node_volume_[n] : Real(0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    team.parallel_for(groups_[g]->packets(), slot_grain / ElementGroup<Real>::lanes,
-                      [&](std::size_t begin, std::size_t end) {
-                        const auto work = has_avx2() ? add_wide_pressure_changes<Real> : add_pressure_changes<Real>;
-                        work(*groups_[g], gradient_[g].data(), dp.data(), begin, end, corner);
-                      });
+    each_packet(g, [&, &group = *groups_[g], gradient = gradient_[g].data()](std::size_t begin, std::size_t end) {
+      if (has_avx2()) return add_wide_pressure_changes(group, gradient, dp.data(), begin, end, corner);
+      add_pressure_changes(group, gradient, dp.data(), begin, end, corner);
+    });
 }
 
 template <class Real>

@@ -36,7 +36,7 @@ class NodalPressure {
   /// To be called after it for packets [begin, end) of each group: evaluates V_t ∇J_t, and adds p_t V_t ∇²J_t to the
   /// stiffness of every slot (elastic/edge_stiffness.hpp). Threads: any, on disjoint ranges.
   void linearise_group(std::size_t group, const Real* x, std::size_t begin, std::size_t end, Real* K);
-  /// Adds −Σ_a κ_a ψ''/ΣV_t g_a g_aᵀ dx (N) to the corner forces, g_a = Σ V_t ∇J_t.
+  /// Adds −Σ_a κ_a ψ''/(4 ΣV_t) g_a g_aᵀ dx (N) to the corner forces, g_a = Σ V_t ∇J_t.
   void add_force_differential(const Real* dx, Real* corner, ThreadTeam& team);
   /// Adds an approximation of that stiffness of one slot for preconditioners, without coupling to other elements; κ ψ''
   /// is averaged over its nodes.
