@@ -126,6 +126,9 @@ TEST_CASE("point kernels: bodies of several blocks, which share nodes") {
   check_law<double>(sample, sample_material("neo_hookean"), false, false, 1e-12);
   check_law<float>(sample, sample_material("neo_hookean"), false, false, 2e-4);
   check_law<double>(sample, sample_material("neo_hookean_iso"), false, true, 1e-12);
+  Material varying = sample_material("neo_hookean_iso");
+  test::vary_parameters(varying, sample.body.mesh, random);
+  check_law<double>(sample, varying, false, true, 1e-12);
   // Beside a part in loops.
   ThreadTeam team(1), many(3);
   Material plain = sample_material("neo_hookean"), viscous = plain;
