@@ -114,20 +114,22 @@ struct TermStages {
     }
   }
 
-  /// T + wJ as tensions, V wJ J G⁻¹, in the order of the state. 6 V J is taken as at least 0.05 · 6 V.
+  /// T + wJ as tensions, V wJ J G⁻¹, in the order of the state; what is crushed fades as in put_total_tensions().
   [[gnu::always_inline]] static inline void total_tensions(const Work& work, std::size_t i, P k, P total[6]) {
     const Spoke<P>&from = work.spoke[i], &to = work.spoke[i + 1];
     const FanTensions<P>& t = work.tensions[i];
-    const P d = six_volumes(work, i), least = P(0.05) / k;
-    const P scale = t.u / select(d > least, d, least);
+    const P d = six_volumes(work, i), J = k * d, limit = P(min_remembered_J * min_remembered_J);
+    const Mask<P> is_crushed = J * J < limit;
+    const P fade = select(is_crushed, J * J / limit, P(1));
+    const P scale = select(is_crushed, t.u * (J / limit * k), t.u) / select(is_crushed, P(1), d);
     P n[3];  // the cofactors of G are products of those of the edges: n, c1, −c0
     cross(from.b, to.b, n);
-    total[0] = t.aa + scale * dot(n, n);
-    total[1] = t.b00 + scale * dot(to.c, to.c);
-    total[2] = t.b11 + scale * dot(from.c, from.c);
-    total[3] = t.a0 + scale * dot(n, to.c);
-    total[4] = t.a1 - scale * dot(n, from.c);
-    total[5] = t.b01 - scale * dot(from.c, to.c);
+    total[0] = fade * t.aa + scale * dot(n, n);
+    total[1] = fade * t.b00 + scale * dot(to.c, to.c);
+    total[2] = fade * t.b11 + scale * dot(from.c, from.c);
+    total[3] = fade * t.a0 + scale * dot(n, to.c);
+    total[4] = fade * t.a1 - scale * dot(n, from.c);
+    total[5] = fade * t.b01 - scale * dot(from.c, to.c);
   }
 
   /// T += Σ_branches (decay Q + gain (T − T0)); the next state is Q⁺ = decay Q + gain (T − T0), T0⁺ = T.

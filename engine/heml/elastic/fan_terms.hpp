@@ -20,6 +20,9 @@
 
 namespace heml {
 
+/// |J| below which elements remember less of their stress (elastic/viscoelastic_loops.hpp).
+constexpr double min_remembered_J = 0.2;
+
 /// A branch of relaxation during one step of h seconds.
 template <class Real>
 struct FanBranch {

@@ -208,17 +208,22 @@ HEML_WIDE void wide_memory_energies(const MemoryOf<Real>& of, const ElementGroup
   }
 }
 
-/// Tensions with the law's wJ expressed as tensions, wJ (cross_a·cross_b) / (36 V J). J is taken as at least 0.05, so
-/// that crushed elements keep finite values.
+/// Tensions with the law's wJ expressed as tensions, wJ (cross_a·cross_b) / (36 V J), for an element to remember. Below
+/// |J| = min_remembered_J they fade with J²: those of an element that is crushed to nothing are without bound, and
+/// would throw it once it has its volume again.
 template <class Real>
 [[gnu::always_inline]] inline void put_total_tensions(const Tensions<Real>& law,
                                                       const ElementKinematics<Real>& kinematics, Real volume,
                                                       Real T[6]) {
-  const Real scale = law.wJ / (36 * volume * std::max(kinematics.at.J, Real(0.05)));
+  constexpr Real limit = Real(min_remembered_J) * Real(min_remembered_J);
+  const Real J = kinematics.at.J;
+  const bool is_crushed = J * J < limit;
+  const Real fade = is_crushed ? J * J / limit : Real(1);
+  const Real scale = (is_crushed ? law.wJ * (J / limit) : law.wJ) / (36 * volume * (is_crushed ? Real(1) : J));
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
   for (int k = 0; k < 6; ++k) {
     const Real *p = kinematics.cross[row[k]], *q = kinematics.cross[col[k]];
-    T[k] = law.T[k] + scale * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
+    T[k] = fade * law.T[k] + scale * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
   }
 }
 
