@@ -67,14 +67,17 @@ Vector stage_start(Simulation<Real>& s, const Stage& stage, double time, const V
   }
   if (staying && flying) {
     const bool must_be_gentle = s.setup->solver.budget && info_of(s.method).stages > 1;
-    const bool flies = *flying < *staying && (!must_be_gentle || !is_defined(stay, r_stay) ||
-                                              is_gentle(s, stage, fly - stay, *flying - *staying, r_stay));
+    // The energy of a law that ends at J = 0 is finite again beyond: a flight to there passes what nothing could.
+    const bool flies =
+        *flying < *staying && !parts.step.inverts_elements(stay, fly) &&
+        (!must_be_gentle || !is_defined(stay, r_stay) || is_gentle(s, stage, fly - stay, *flying - *staying, r_stay));
     const Vector &lower = flies ? fly : stay, &higher = flies ? stay : fly;
     if (is_defined(lower, r)) return lower;
     if (is_defined(higher, r)) return higher;
   } else {
     const bool can_stay = is_defined(stay, r_stay), can_fly = is_defined(fly, r_fly);
-    if (can_stay && can_fly) return r_fly.norm() < r_stay.norm() ? fly : stay;
+    if (can_stay && can_fly)
+      return r_fly.norm() < r_stay.norm() && !parts.step.inverts_elements(stay, fly) ? fly : stay;
     if (can_stay || can_fly) return can_stay ? stay : fly;
   }
   Vector stretched, d;
