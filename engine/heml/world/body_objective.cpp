@@ -37,12 +37,18 @@ BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Shared<Model<R
 }
 
 /// From the forces at rest, which are nothing but round-off, within bounds from the stiffness: some laws have a stress
-/// at rest, and some meshes numbers without round-off.
+/// at rest, and some meshes numbers without round-off. At rest without what the body has been through: stress that flow
+/// or relaxation has left there is none of it.
 template <class Real>
 void BodyObjective<Real>::find_noise() {
   Vector rest(3 * static_cast<Eigen::Index>(model_->mesh.nodes.size())), r;
   for (std::size_t n = 0; n < model_->mesh.nodes.size(); ++n)
     rest.segment<3>(3 * static_cast<int>(n)) = model_->mesh.nodes[n];
+  std::optional<BodySnapshot<Real>> state;
+  if (body_.has_internal_state()) {
+    state = body_.snapshot();
+    body_.reset_history(as_real(rest, x_));
+  }
   residual(rest, r);
   const Vector internal = forces_ - external_;
   double at_rest = 0, inertia = 0;
@@ -54,6 +60,7 @@ void BodyObjective<Real>::find_noise() {
   // An energy density is found as a difference of numbers of the size of a modulus: ω² m L² in all.
   constexpr double epsilon = std::numeric_limits<Real>::epsilon(), safety = 4;
   const double bound = static_cast<double>(body_.frequency_bound(x_.data(), team_));
+  if (state) body_.restore(*state, x_.data());
   std::vector<double> stiffness(masses_->lumped.size(), 0.0);
   for (const int n : free_.node) {
     const auto k = static_cast<std::size_t>(n);
