@@ -78,8 +78,10 @@ double Suture::length(double time) const {
   return from + part * (to - from);
 }
 
-ContactSurface surface_of(const Table& table) {
-  return {ContactSurface::Shape::plane, table.point, table.normal, 0, table.friction};
+ContactSurface surface_of(const PlacedTable& placed, double time) {
+  const Table& table = placed.table;
+  const double below = placed.rises(time) ? placed.depth - placed.speed * (time - placed.start) : 0;
+  return {ContactSurface::Shape::plane, table.point - below * table.normal, table.normal, 0, table.friction};
 }
 
 ContactSurface surface_of(const Suture& suture, double time) {

@@ -27,6 +27,16 @@ struct Table {
   double friction = 0;          ///< Coulomb's coefficient
 };
 
+/// A table from the moment at which it is put where it is. One that is put where tissue is rises from below that tissue
+/// to its place, since tissue that is found deep inside would be thrown out of it.
+struct PlacedTable {
+  Table table;
+  double depth = 0;  ///< m, below its place at `start`
+  double speed = 0;  ///< m/s, at which it rises
+  double start = 0;  ///< s
+  bool rises(double time) const { return depth > speed * (time - start); }
+};
+
 /// A rigid ball or capsule whose tip follows a polyline at constant speed and stays at its end.
 class Probe {
  public:
@@ -70,7 +80,7 @@ struct ContactSurface {
   std::array<int, 2> ends{};  ///< of the thread
 };
 
-ContactSurface surface_of(const Table& table);
+ContactSurface surface_of(const PlacedTable& placed, double time);
 ContactSurface surface_of(const Probe& probe, double time);
 ContactSurface surface_of(const Suture& suture, double time);
 

@@ -21,7 +21,7 @@ struct ContactReport {
 };
 
 struct Contacts {
-  std::vector<Table> tables;
+  std::vector<PlacedTable> tables;
   std::optional<Probe> probe;
   std::vector<Suture> sutures;
   std::optional<SelfContact> tissue;   ///< self-contact, where a scene asks for it; rebuilt when the mesh is edited
@@ -37,7 +37,7 @@ struct Contacts {
   /// Tables, the probe, sutures and the tissue itself, in this order, at a time (s).
   std::vector<ContactSurface> surfaces(double time) const {
     std::vector<ContactSurface> all;
-    for (const Table& table : tables) all.push_back(surface_of(table));
+    for (const PlacedTable& table : tables) all.push_back(surface_of(table, time));
     if (probe) all.push_back(surface_of(*probe, time));
     for (const Suture& suture : sutures) all.push_back(surface_of(suture, time));
     if (tissue) all.push_back({ContactSurface::Shape::tissue, Vec3::Zero(), Vec3::Zero(), 0, tissue->friction()});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <heml/mesh/surface.hpp>
 #include <heml/world/simulation.hpp>
@@ -7,6 +8,8 @@ namespace heml {
 namespace {
 
 constexpr std::size_t node_grain = 400;
+constexpr double table_speed = 1;  // of the body's diagonal, 1/s: at which a table rises into tissue
+constexpr double touching = 1e-6;  // of the body's diagonal: tissue so deep in a table lies on it
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
   std::vector<Material> materials;
@@ -40,8 +43,6 @@ Simulation<Real>::Simulation(WorldSetup setup_in)
       body(model->mesh, model->material_of, materials_of(*setup), options_of(*setup), model->midedges),
       team(setup->solver.threads) {
   const FlushDenormals flush;
-  contacts.tables = setup->tables;
-  for (Table& table : contacts.tables) table.normal.normalize();
   update_masses();
 }
 
@@ -202,6 +203,28 @@ std::vector<Vec3> Simulation<Real>::in_file_order(const std::vector<Real>& value
     result[file] = Vec3(value[0], value[1], value[2]);
   }
   return result;
+}
+
+// The body is where it will meet them.
+template <class Real>
+void Simulation<Real>::place_tables() {
+  contacts.tables.clear();
+  for (const Table& table : setup->tables) {
+    contacts.tables.push_back({table, 0, table_speed * model->diagonal, state.time});
+    contacts.tables.back().table.normal.normalize();
+  }
+  update_contact_surfaces();
+  if (setup->solver.is_static()) return;  // time does not pass
+  const auto at = [this](int n) {
+    const Real* x = &state.x[3 * static_cast<std::size_t>(n)];
+    return Vec3(static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2]));
+  };
+  for (PlacedTable& placed : contacts.tables) {
+    double deepest = 0;
+    for (const int n : contacts.boundary.nodes)
+      deepest = std::max(deepest, placed.table.normal.dot(placed.table.point - at(n)));
+    if (deepest > touching * model->diagonal) placed.depth = deepest;
+  }
 }
 
 // There are other surfaces, or the body has another skin.

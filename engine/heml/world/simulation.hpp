@@ -126,6 +126,8 @@ struct Simulation : SimulationState<Real> {
   /// The elements take the regions of the setup's mesh, and their materials.
   void update_regions();
 
+  /// Takes the setup's tables, which rise into tissue that is where they are put.
+  void place_tables();
   /// Rebuilds what depends on the list of contact surfaces or on the boundary of the mesh.
   void update_contact_surfaces();
   /// Rebuilds self-contact for the current elements.

@@ -105,10 +105,13 @@ bool StepRescue<Real>::limit_gain(double before, double until) {
 }
 
 /// Of motion, elasticity and potential of all loads as at a time, s: it falls where nothing but them does work. None
-/// where something else does: pressure, supports, a probe or sutures that move.
+/// where something else does: pressure; supports, tables, a probe or sutures that move.
 template <class Real>
 std::optional<double> StepRescue<Real>::energy(double time) {
-  if (s_.contacts.probe || !s_.contacts.sutures.empty() || supports_move(*s_.model, s_.state.time, time))
+  const auto& tables = s_.contacts.tables;
+  const bool tables_rise = std::any_of(tables.begin(), tables.end(),
+                                       [this](const PlacedTable& placed) { return placed.rises(s_.state.time); });
+  if (s_.contacts.probe || !s_.contacts.sutures.empty() || tables_rise || supports_move(*s_.model, s_.state.time, time))
     return std::nullopt;
   BodyObjective<Real>& body = s_.implicit_state().body;
   const Vector x = as_vector(s_.state.x);

@@ -213,9 +213,7 @@ Status ToolCommands<Real>::execute(const SetTables& command) {
   for (const Table& table : command.tables)
     if (const Status status = table_problem(table); !status.ok()) return status;
   s_.setup.write().tables = command.tables;
-  s_.contacts.tables = command.tables;
-  for (Table& table : s_.contacts.tables) table.normal.normalize();
-  s_.update_contact_surfaces();
+  s_.place_tables();
   return {};
 }
 

@@ -213,8 +213,8 @@ void TypedWorld<Real>::start() {
   s_.contacts.sutures.clear();
   s_.contacts.reports.clear();
   s_.update_self_contact();
-  s_.update_contact_surfaces();
   set_initial_state();
+  s_.place_tables();
   s_.halt.reset();
   s_.explicit_until = -1;
   s_.grasps.clear();

@@ -205,8 +205,8 @@ std::vector<ToolState> WorldQueries<Real>::tools() const {
   for (const auto& grasp : s_.grasps) tools.push_back(state_of(grasp));
   for (const PinnedPatch& pin : s_.pins) tools.push_back(state_of(pin));
   std::size_t surface = 0;  // reports are in the order of Contacts::surfaces()
-  for (const Table& table : contacts.tables)
-    tools.push_back(TableState{contact_state(contacts.report_of(surface++)), table});
+  for (const PlacedTable& placed : contacts.tables)
+    tools.push_back(TableState{contact_state(contacts.report_of(surface++)), placed.table});
   if (contacts.probe) {
     const ContactSurface at = surface_of(*contacts.probe, s_.state.time);
     tools.push_back(ProbeState{contact_state(contacts.report_of(surface++)), at.point, at.other, at.radius});
