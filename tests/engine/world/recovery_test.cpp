@@ -76,12 +76,6 @@ double away_from_rest(const std::vector<Vec3>& x, const std::vector<Vec3>& rest)
   return std::sqrt(sum / static_cast<double>(x.size())) / (std::sqrt(3.0) * side);
 }
 
-/// Of integration points.
-int inverted(World& world) {
-  const std::vector<double> J = world.point_volume_ratios();
-  return static_cast<int>(std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); }));
-}
-
 /// The step from which on the body is at rest to 0.1 %, none inverted; 0 when 60 do not suffice.
 int steps_to_rest(World& world) {
   int since = 0;

@@ -184,6 +184,52 @@ TEST_CASE("table: bits are the same for one thread and two, and a table that is 
   CHECK(hash(-1, true) == hash(1, false));
 }
 
+TEST_CASE("table: one that is put where tissue is rises into it, throws nothing and comes to its place") {
+  constexpr double height = 0.03;  // of a cube of 0.04 m
+  const double diagonal = side * std::sqrt(3.0), mass = side * side * side * 1000;
+  for (const Integrator integrator : moving_integrators()) {
+    WorldSetup setup = cube_on_table(integrator);
+    setup.solver.step.reset();
+    setup.solver.rate = 60;
+    setup.solver.damping = 2;
+    auto world = make_world(setup);
+    for (int tick = 0; tick < 10; ++tick) world->tick();
+    REQUIRE(world->apply(SetTables{{{Vec3(0, height, 0), Vec3::UnitY(), 0.2}}}).ok());
+    CAPTURE(std::string(integrator_name(integrator)));
+    double fastest = 0;
+    for (int tick = 0; tick < 120; ++tick) {
+      world->tick();
+      REQUIRE_FALSE(world->halt());
+      fastest = std::max(fastest, std::sqrt(2 * world->energies().kinetic / mass));
+      CHECK(inverted(*world) == 0);
+    }
+    CHECK(fastest < 3 * diagonal);  // it rises by a diagonal a second
+    CHECK(lowest(*world) >= height - 1e-3 * side);
+    CHECK(mean(world->positions()).y() == doctest::Approx(height + side / 2).epsilon(0.1));
+  }
+}
+
+TEST_CASE("table: a body that begins in one comes out of it, and a static world has it at its place") {
+  WorldSetup setup = cube_on_table(Integrator::verlet);
+  setup.tables[0].point.y() = side / 2;
+  setup.solver.damping = 5;
+  auto world = make_world(setup);
+  const double first = lowest(*world);
+  world->tick();
+  CHECK(lowest(*world) < first + 1e-3 * side);
+  while (world->time() < 2) world->tick();
+  CHECK(lowest(*world) >= side / 2 - 1e-6);
+  world->apply(Reset{});
+  CHECK(lowest(*world) == first);
+  world->tick();
+  CHECK(lowest(*world) < first + 1e-3 * side);
+  setup.solver = cube_on_table(Integrator::static_equilibrium).solver;
+  auto still = make_world(setup);
+  still->load_to(1);
+  REQUIRE_FALSE(still->halt());
+  CHECK(lowest(*still) >= side / 2 - 1e-3 * side);
+}
+
 TEST_CASE("table: a wrong one is refused and changes nothing") {
   auto world = make_world(cube_on_table(Integrator::verlet));
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/generate.hpp>
@@ -63,6 +64,12 @@ inline std::vector<Material> with_internal_state(const Material& plain) {
   for (const Material& material : {plain, viscous, relaxing, plastic, all})
     if (!material_problem(material)) materials.push_back(material);
   return materials;
+}
+
+/// Number of integration points that are flat or inside out.
+inline int inverted(World& world) {
+  const std::vector<double> J = world.point_volume_ratios();
+  return static_cast<int>(std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); }));
 }
 
 /// A block 0.1 × 0.02 × 0.02 m along x, held at x = 0, under gravity in −y.
