@@ -8,15 +8,15 @@ namespace heml::panel {
 namespace {
 
 void draw_pace(Rows& rows, const Frame& frame) {
-  const bool halted = !frame.halted.empty(), late = !frame.pace.keeping_up && !frame.paused;
-  const ImU32 colour = halted         ? colours::danger
-                       : late         ? colours::warning
-                       : frame.paused ? colours::muted
-                                      : colours::accent;
-  const std::string text = halted         ? "stopped"
-                           : frame.paused ? "paused"
-                           : late         ? fmt::format("{:.1f}× slower than real time", frame.pace.slowdown)
-                                          : "real time";
+  const bool halted = !frame.halted.empty(), forwards = frame.fast_forward_target > 0;
+  const bool paused = frame.paused && !forwards, late = !frame.pace.keeping_up && !paused;
+  const double slowdown = frame.pace.slowdown;
+  const ImU32 colour = halted ? colours::danger : late ? colours::warning : paused ? colours::muted : colours::accent;
+  const std::string text = halted     ? "stopped"
+                           : paused   ? "paused"
+                           : late     ? fmt::format("{:.1f}× slower than real time", slowdown)
+                           : forwards ? fmt::format("{:.3g}× faster than real time", 1 / slowdown)
+                                      : "real time";
   const UseFont small(Font::small);
   rows.value({"Speed", "Whether simulated time keeps up with wall-clock time."}, text, colour, colour);
 }

@@ -39,7 +39,7 @@ struct Pace {
   double rate = 0;          ///< Hz, ticks per simulated second
   double slowdown = 1;      ///< wall seconds per simulated second over the last second; 1: real time
   long missed = 0;          ///< missed deadlines since the start
-  double p50 = 0, p99 = 0;  ///< s, percentiles of the wall time of a tick over the last 1000 ticks
+  double p50 = 0, p99 = 0;  ///< s, percentiles of the wall time of a tick over the same second; 0: it had no tick
   bool keeping_up = true;   ///< slowdown is below 1.1
   int threads = 1;          ///< that step now
   double others = 0;        ///< cores that the rest of the process uses, mainly drawing; 0: not measured

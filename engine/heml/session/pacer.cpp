@@ -1,13 +1,21 @@
 #include <algorithm>
 #include <heml/session/pacer.hpp>
+#include <vector>
 
 namespace heml {
 namespace {
-double seconds(Pacer::Clock::duration d) { return std::chrono::duration<double>(d).count(); }
-constexpr std::size_t marks_kept = 16, durations_kept = 1000;
-}  // namespace
 
-Pacer::Pacer(double tick) : tick_(tick) { durations_.reserve(durations_kept); }
+constexpr double shortest_window = 1.0 / 16;  // s: over a shorter time the slowdown would be chance
+
+double seconds(Pacer::Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+double percentile(std::vector<float>& values, std::size_t percent) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() * percent / 100);
+  std::nth_element(values.begin(), place, values.end());
+  return static_cast<double>(*place);
+}
+
+}  // namespace
 
 Pacer::Time Pacer::at(long tick) const {
   return base_ +
@@ -15,56 +23,49 @@ Pacer::Time Pacer::at(long tick) const {
 }
 
 void Pacer::restart(Time now) {
-  base_ = now;
+  base_ = window_began_ = now;
   done_ = 0;
-  marks_.assign(1, {now, total_});
-  next_mark_ = 1;
+  ticks_.clear();
 }
 
 void Pacer::set_tick(double tick, Time now) {
   tick_ = tick;
-  durations_.clear();
-  next_duration_ = 0;
   restart(now);
 }
 
 void Pacer::book(Time began, Time ended) {
   ++done_;
-  ++total_;
   if (ended > at(done_)) ++missed_;
   if (seconds(ended - at(done_)) > patience) {
     base_ = ended;
     done_ = 0;
   }
-  const float duration = static_cast<float>(seconds(ended - began));
-  if (durations_.size() < durations_kept)
-    durations_.push_back(duration);
-  else
-    durations_[next_duration_] = duration;
-  next_duration_ = (next_duration_ + 1) % durations_kept;
-  const Mark& last = marks_[(next_mark_ + marks_kept - 1) % marks_kept];
-  if (seconds(ended - last.wall) < window / marks_kept) return;
-  if (marks_.size() < marks_kept)
-    marks_.push_back({ended, total_});
-  else
-    marks_[next_mark_] = {ended, total_};
-  next_mark_ = (next_mark_ + 1) % marks_kept;
+  keep(began, ended);
 }
 
-Pace Pacer::pace(Time now) const {
+void Pacer::book_unscheduled(Time began, Time ended) {
+  base_ = ended;
+  done_ = 0;
+  keep(began, ended);
+}
+
+void Pacer::keep(Time began, Time ended) {
+  ticks_.push_back({ended, static_cast<float>(seconds(ended - began))});
+  for (; seconds(ended - ticks_.front().ended) > window; ticks_.pop_front()) window_began_ = ticks_.front().ended;
+}
+
+Pace Pacer::pace() const {
   Pace pace;
   pace.rate = 1 / tick_;
   pace.missed = missed_;
-  if (!durations_.empty()) {
-    std::vector<float> sorted = durations_;
-    std::sort(sorted.begin(), sorted.end());
-    pace.p50 = static_cast<double>(sorted[sorted.size() / 2]);
-    pace.p99 = static_cast<double>(sorted[std::min(sorted.size() - 1, sorted.size() * 99 / 100)]);
-  }
-  if (marks_.empty()) return pace;
-  const Mark& oldest = marks_.size() < marks_kept ? marks_.front() : marks_[next_mark_];
-  const double wall = seconds(now - oldest.wall), simulated = static_cast<double>(total_ - oldest.ticks) * tick_;
-  if (wall > window / marks_kept) pace.slowdown = simulated > 0 ? wall / simulated : 1e9;
+  if (ticks_.empty()) return pace;
+  std::vector<float> durations;
+  durations.reserve(ticks_.size());
+  for (const Tick& tick : ticks_) durations.push_back(tick.duration);
+  pace.p50 = percentile(durations, 50);
+  pace.p99 = percentile(durations, 99);
+  const double wall = seconds(ticks_.back().ended - window_began_);
+  if (wall > shortest_window) pace.slowdown = wall / (static_cast<double>(ticks_.size()) * tick_);
   pace.keeping_up = pace.slowdown < 1.1;
   return pace;
 }

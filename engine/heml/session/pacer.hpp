@@ -2,8 +2,8 @@
 // Schedules ticks against wall time and keeps statistics of it. Independent of threads and clocks: all times are passed
 // in.
 #include <chrono>
+#include <deque>
 #include <heml/session/frame.hpp>
-#include <vector>
 
 namespace heml {
 
@@ -13,7 +13,7 @@ class Pacer {
   using Time = Clock::time_point;
 
   /// tick: s, period.
-  explicit Pacer(double tick);
+  explicit Pacer(double tick) : tick_(tick) {}
 
   /// Starts counting from now: at the start and after a pause.
   void restart(Time now);
@@ -24,27 +24,27 @@ class Pacer {
   /// Records a tick that ran from `began` to `ended`. When it is more than `patience` late, the schedule restarts from
   /// `ended`: simulated time slows, and no burst follows.
   void book(Time began, Time ended);
-  Pace pace(Time now) const;
+  /// Records a tick that had no deadline, as in fast-forwarding. The schedule restarts from `ended`.
+  void book_unscheduled(Time began, Time ended);
+  Pace pace() const;
 
  private:
   static constexpr double patience = 0.05;  ///< s
-  static constexpr double window = 1.0;     ///< s of wall time over which the slowdown is measured
+  static constexpr double window = 1.0;     ///< s of wall time over which pace() looks back
 
   Time at(long tick) const;
+  void keep(Time began, Time ended);
 
   double tick_;
   Time base_{};
   long done_ = 0;  ///< ticks since base_
   long missed_ = 0;
-  struct Mark {
-    Time wall;
-    long ticks;
+  struct Tick {
+    Time ended;
+    float duration;  ///< s
   };
-  std::vector<Mark> marks_;  ///< ring buffer of wall time and total ticks, every 1/16 of `window`
-  std::size_t next_mark_ = 0;
-  long total_ = 0;
-  std::vector<float> durations_;  ///< s, ring buffer of the last 1000 ticks
-  std::size_t next_duration_ = 0;
+  std::deque<Tick> ticks_;  ///< that ended within `window` of the last one; at least that one
+  Time window_began_{};     ///< when the tick before ticks_ ended, or the schedule was restarted
 };
 
 }  // namespace heml

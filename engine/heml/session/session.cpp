@@ -107,6 +107,7 @@ class Session::Impl {
     {
       std::lock_guard lock(mutex_);
       fast_forward_target_ = tick;
+      ++requests_;
     }
     wake_.notify_all();
   }
@@ -165,7 +166,7 @@ class Session::Impl {
     }
     wake_.wait(lock, [&] { return wanted() || (playing_ && !world_->halt()); });
     frames_published_since_pause_ = false;
-    if (playing_) pacer_.restart(Pacer::Clock::now());
+    if (playing_ || single_steps_ > 0 || fast_forward_target_ > 0) pacer_.restart(Pacer::Clock::now());
   }
 
   bool may_tick() {
@@ -263,7 +264,8 @@ class Session::Impl {
     if (!recorded) apply_clock_choices(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
     if (world_->halt()) show_now_ = true;
     recovery_reporter_.ticked(*world_, scene_, history_);
-    if (fast_forward_target_ == 0) pacer_.book(began, Pacer::Clock::now());
+    const auto ended = Pacer::Clock::now();
+    fast_forward_target_ > 0 ? pacer_.book_unscheduled(began, ended) : pacer_.book(began, ended);
   }
 
   /// Leaves cores to other threads of the process. Not recorded: the number of threads changes no bit.
@@ -285,16 +287,15 @@ class Session::Impl {
   }
 
   void publish() {
-    const auto began = Pacer::Clock::now();
     published_requests_ = taken_requests_;
     publisher_.publish(*world_, comparison_runs_ ? &*comparison_runs_ : nullptr,
-                       [&](Frame& frame) { complete(frame, began); });
+                       [&](Frame& frame) { complete(frame); });
     if (options_.on_frame) options_.on_frame();
   }
 
   /// Adds to a frame what is not of the world.
-  void complete(Frame& frame, Pacer::Time began) const {
-    frame.pace = pacer_.pace(began);
+  void complete(Frame& frame) const {
+    frame.pace = pacer_.pace();
     frame.pace.threads = world_->threads();
     if (balance_) frame.pace.others = balance_->load_of_others();
     frame.commands = std::ssize(history_);

@@ -50,7 +50,8 @@ class Session {
   void play();
   void pause();
   void step_once();                    ///< one tick, then pause
-  void fast_forward_to(long tick);     ///< ticks at full speed up to `tick`, then on as before; pause() ends it early
+  /// Ticks at full speed up to `tick`, then on as before. 0 ends it where it is, and so does pause().
+  void fast_forward_to(long tick);
   void show(Field field);              ///< the field in Frame::values from now on
   /// Leaves regions (ascending) out of the frames from now on; the simulation goes on with them.
   void hide_regions(const std::vector<int>& regions);

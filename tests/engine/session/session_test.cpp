@@ -34,6 +34,14 @@ Scene small_scene() {
   return scene;
 }
 
+/// With ticks that take far less than their 0.1 ms.
+Scene fast_scene() {
+  Scene scene = small_scene();
+  scene.solver.step = 1e-4;
+  scene.mesh.box->cells = {2, 1, 1};
+  return scene;
+}
+
 /// Polls frames until one satisfies `wanted`, for at most 10 s.
 template <class Wanted>
 const Frame& wait_for(Session& session, const Wanted& wanted) {
@@ -405,12 +413,9 @@ TEST_CASE("a session rewound to an earlier time has its bits and continues in it
 }
 
 TEST_CASE("a fast-forward is faster than real time, and a pause ends it early") {
-  Scene scene = small_scene();
-  scene.solver.step = 1e-4;
-  scene.mesh.box->cells = {2, 1, 1};
   SessionOptions options;
   options.start_paused = true;
-  Session session(scene, options);
+  Session session(fast_scene(), options);
   session.fast_forward_to(2000);
   const Frame& there = wait_for(session, [](const Frame& f) { return f.tick == 2000 && f.fast_forward_target == 0; });
   CHECK(there.paused);
@@ -421,6 +426,29 @@ TEST_CASE("a fast-forward is faster than real time, and a pause ends it early") 
   const long tick = wait_for(session, [](const Frame& f) { return f.fast_forward_target == 0; }).tick;
   std::this_thread::sleep_for(50ms);
   CHECK(session.latest().tick <= tick + 1);
+}
+
+TEST_CASE("the pace of a fast-forward is that of its own ticks, not of the time before it") {
+  SessionOptions options;
+  options.start_paused = true;
+  Session session(fast_scene(), options);
+  std::this_thread::sleep_for(200ms);  // 2000 ticks of real time without one
+  session.fast_forward_to(100000000);
+  const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick > 10000 && f.fast_forward_target > 0; });
+  CHECK(frame.pace.slowdown < 100);  // no ticks of its own: infinite
+  CHECK(frame.pace.p50 > 0);
+}
+
+TEST_CASE("a fast-forward that is ended early goes on as before, and misses no deadline by it") {
+  Session session(fast_scene(), {});
+  session.fast_forward_to(100000000);
+  wait_for(session, [](const Frame& f) { return f.tick > 10000; });
+  session.fast_forward_to(0);
+  const Frame& ended = wait_for(session, [](const Frame& f) { return f.fast_forward_target == 0; });
+  CHECK_FALSE(ended.paused);
+  const long tick = ended.tick;
+  CHECK(tick < 100000000);
+  wait_for(session, [&](const Frame& f) { return f.tick > tick; });
 }
 
 TEST_CASE("during a replay no choice depends on the clock") {
