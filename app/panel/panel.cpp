@@ -216,8 +216,9 @@ PanelActions Panel::perform_now(const Frame& frame) {
 /// Draws what stands at the edges of the free area and takes its height off it. Returns the width of the palette.
 float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
   if (timeline_) {
-    draw_timeline(rows_, *timeline_, free, pressed_, out, rects_.emplace_back());
-    free.to.y -= timeline_height();
+    Area& bar = rects_.emplace_back();
+    draw_timeline(rows_, *timeline_, free, pressed_, out, bar);
+    free.to.y = bar.from.y;
   }
   const bool has_table = find_tool<TableState>(frame.tools) != nullptr;
   Area& palette = rects_.emplace_back();

@@ -67,7 +67,7 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       if (Rows::close_choices() || dialog_.close()) return;
       if (help_.is_open()) return help_.close();
       notices_.close();
-      return ask(timeline_ && (timeline_->shown || timeline_->resume_progress) ? Request::live : Request::release);
+      return ask(timeline_ && timeline_->leads_to_live() ? Request::live : Request::release);
     case Action::seek_previous:
       return ask(Request::previous_frame);
     case Action::seek_next:

@@ -9,7 +9,8 @@ namespace heml::panel {
 namespace {
 
 constexpr float bar_height = 2.1f, timeline_margin = 0.7f, widest_timeline = 60, buttons_width = 9.5f,
-                time_width = 4.6f;  // em
+                button_gap = 0.6f, time_width = 4.6f, side = 0.7f, pad = 0.3f, knob = 0.46f, shortest_track = 5;  // em
+constexpr float before_track = side + time_width, after_track = buttons_width + 0.9f;                             // em
 
 constexpr ImGuiWindowFlags bar_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
@@ -53,13 +54,14 @@ void draw_track(const Track& track) {
   if (time.shown) part(track.at(time.first), track.at(*time.shown), colours::fill);
   if (time.fast_forward_target > 0)
     list.AddCircle({track.at(time.fast_forward_target), middle}, em(0.42f), colours::warning, 20, em(0.12f));
-  list.AddCircleFilled({track.at(time.shown.value_or(time.live)), middle}, em(0.46f), colours::accent, 24);
+  list.AddCircleFilled({track.at(time.shown.value_or(time.live)), middle}, em(knob), colours::accent, 24);
 }
 
 void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   const Timeline& time = track.time;
-  const ImVec2 size(track.to.x - track.from.x, track.to.y - track.from.y);
-  ImGui::InvisibleButton("track", size);
+  // Wider than the track by the halves of the knob that stand out where it is at an end.
+  ImGui::SetCursorScreenPos({track.from.x - em(knob), track.from.y});
+  ImGui::InvisibleButton("track", {track.to.x - track.from.x + em(2 * knob), track.to.y - track.from.y});
   const float x = ImGui::GetIO().MousePos.x;
   long tick = track.tick_at(x);
   double seconds = seconds_at(time, tick);
@@ -83,6 +85,58 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   ImGui::EndTooltip();
 }
 
+/// The time at the left, buttons at the right and the track between them, or above them where that would be too short.
+struct Layout {
+  Area bar;
+  bool two_rows;
+  float row = em(bar_height - 2 * pad);
+
+  explicit Layout(const Area& free) {
+    const float width = std::min(free.width() - em(2 * timeline_margin), em(widest_timeline)),
+                middle = (free.from.x + free.to.x) / 2;
+    two_rows = width - em(before_track + after_track) < em(shortest_track);
+    const float bottom = free.to.y - em(timeline_margin);
+    bar = {{middle - width / 2, bottom - em(bar_height) - (two_rows ? row : 0)}, {middle + width / 2, bottom}};
+  }
+  float left() const { return bar.from.x + em(side); }
+  float text_top() const { return bar.to.y - em(pad) - row; }
+  float buttons() const { return bar.to.x - em(after_track - button_gap); }
+  /// Also where there are no buttons: the track is not to move.
+  Track track(const Timeline& time) const {
+    const float top = bar.from.y + em(pad), aside = two_rows ? side + knob : 0;
+    return {{bar.from.x + em(two_rows ? aside : before_track), top},
+            {bar.to.x - em(two_rows ? aside : after_track), top + row},
+            time};
+  }
+};
+
+void draw_buttons(Rows& rows, const Timeline& time, std::vector<Action>& pressed) {
+  const auto tell = [&](const std::string& text, const Label& label) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(text.c_str());
+    rows.explain(label);
+  };
+  if (time.resume_progress)
+    return tell(fmt::format("Replaying {} %", *time.resume_progress),
+                {"Replaying", "Replays the session up to that time as fast as possible; Esc cancels."});
+  if (time.is_opening)
+    return tell(
+        "Opening …",
+        {"Opening",
+         "Another file is being read. What is done to this body meanwhile would be lost, so it takes no changes."});
+  if (time.shown) {
+    if (rows.button({"Resume",
+                     "Resumes from this time by replaying the session up to it, bit for bit; a recording "
+                     "(being written or opened) continues in a new file (B)."}))
+      pressed.push_back(Action::resume);
+    ImGui::SameLine(0, em(0.4f));
+    if (rows.button({"Live", "Back to the live simulation (End, Esc)."})) pressed.push_back(Action::seek_live);
+  } else if (time.fast_forward_target > 0) {
+    if (rows.button({"Stop here", "Ends fast-forwarding at this time (End, Esc)."}))
+      pressed.push_back(Action::seek_live);
+  }
+}
+
 }  // namespace
 
 double seconds_at(const Timeline& time, long tick) {
@@ -90,51 +144,27 @@ double seconds_at(const Timeline& time, long tick) {
   return *time.elapsed + static_cast<double>(tick - time.shown.value_or(time.live)) / time.rate;
 }
 
-float timeline_height() { return em(bar_height + timeline_margin); }
-
 void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vector<Action>& pressed, PanelActions& out,
                    Area& place) {
-  const float width = std::min(free.width() - em(2 * timeline_margin), em(widest_timeline)),
-              middle = (free.from.x + free.to.x) / 2;
-  const float top = free.to.y - timeline_height();
-  place = {{middle - width / 2, top}, {middle + width / 2, top + em(bar_height)}};
+  const Layout layout(free);
+  place = layout.bar;
   ImGui::SetNextWindowPos(place.from);
-  ImGui::SetNextWindowSize({width, em(bar_height)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.7f), em(0.3f)});
+  ImGui::SetNextWindowSize({place.width(), place.height()});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(side), em(pad)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   if (ImGui::Begin("timeline", nullptr, bar_flags)) {
-    const float height = ImGui::GetContentRegionAvail().y, left = ImGui::GetCursorScreenPos().x;
-    const bool back = time.shown.has_value();
     const double seconds = seconds_at(time, time.shown.value_or(time.live));
+    ImGui::SetCursorScreenPos({layout.left(), layout.text_top()});
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, back ? colours::warning : colours::text);
+    ImGui::PushStyleColor(ImGuiCol_Text, time.shown ? colours::warning : colours::text);
     ImGui::TextUnformatted(seconds_text(seconds).c_str());
     ImGui::PopStyleColor();
     rows.explain({"Shown time", time_hint(time)});
-    const float end = place.to.x - em(0.9f) - em(buttons_width);  // also without buttons: the track is not to move
-    const Track track{{left + em(time_width), place.from.y + em(0.3f)}, {end, place.from.y + em(0.3f) + height}, time};
-    ImGui::SetCursorScreenPos(track.from);
+    const Track track = layout.track(time);
     draw_track(track);
     follow_mouse(rows, track, out);
-    ImGui::SetCursorScreenPos({end + em(0.6f), place.from.y + em(0.3f)});
-    if (time.resume_progress) {
-      ImGui::AlignTextToFramePadding();
-      ImGui::Text("Replaying %d %%", *time.resume_progress);
-      rows.explain({"Replaying", "Replays the session up to that time as fast as possible; Esc cancels."});
-    } else if (time.is_opening) {
-      ImGui::AlignTextToFramePadding();
-      ImGui::TextUnformatted("Opening …");
-      rows.explain(
-          {"Opening",
-           "Another file is being read. What is done to this body meanwhile would be lost, so it takes no changes."});
-    } else if (back) {
-      if (rows.button({"Resume",
-                       "Resumes from this time by replaying the session up to it, bit for bit; a recording "
-                       "(being written or opened) continues in a new file (B)."}))
-        pressed.push_back(Action::resume);
-      ImGui::SameLine(0, em(0.4f));
-      if (rows.button({"Live", "Back to the live simulation (End, Esc)."})) pressed.push_back(Action::seek_live);
-    }
+    ImGui::SetCursorScreenPos({layout.buttons(), layout.text_top()});
+    draw_buttons(rows, time, pressed);
   }
   ImGui::End();
   ImGui::PopStyleVar(2);

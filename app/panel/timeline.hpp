@@ -5,6 +5,8 @@
 //    │ 2.40 s  ████████████▌███████░░░░░░░  Resume   Live │
 //    └───────────────┬─────┬──────┬──────┬────────────────┘
 //                  seen  shown  engine  end of the recording
+//
+// Where that leaves the track too short, it has a row of its own above time and buttons.
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
 #include <app/panel/rows.hpp>
@@ -34,13 +36,13 @@ struct Timeline {
   long fast_forward_target = 0;        ///< a tick that the engine fast-forwards to; 0: none
   std::optional<int> resume_progress;  ///< %, of the replay that leads to a resumed time
   bool is_opening = false;             ///< another file is being opened
+
+  /// Whether there is something that Esc ends: a past tick shown, a replay, fast-forwarding.
+  bool leads_to_live() const { return shown || resume_progress || fast_forward_target > 0; }
 };
 
 /// Simulated seconds since the start at a tick; exact for the shown one where the rate has changed.
 double seconds_at(const Timeline& timeline, long tick);
-
-/// Height of the bar with its margin, pixels.
-float timeline_height();
 
 /// Draws the bar at the bottom of the free area. Adds the actions of its buttons to `pressed`. `place`: set to its
 /// rectangle.

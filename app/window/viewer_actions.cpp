@@ -165,6 +165,7 @@ void Viewer::seek(panel::Request where) {
 
 void Viewer::go_live() {
   if (session_loader_.is_replaying()) return cancel_replay();
+  if (live_->fast_forward_target > 0) return open_.session->fast_forward_to(0);
   playback_.end(*open_.session);
 }
 

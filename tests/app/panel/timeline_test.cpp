@@ -107,6 +107,55 @@ TEST_CASE("a click shows the frame that the tooltip tells, and the track stays w
   CHECK(place(driver, 0.33f) == here);
 }
 
+TEST_CASE("the whole knob at the end of the track takes the mouse") {
+  Driver driver;
+  Timeline timeline = half_way();
+  timeline.live = timeline.end;
+  driver.panel.set_timeline(timeline);
+  int wide = 0;  // pixels
+  for (float x = 780; x < 1020; ++x) {
+    driver.move({x, bar_y});
+    driver.draw();
+    if (driver.panel.hovered() != "Timeline") continue;
+    const auto actions = driver.click();
+    wide += actions.seek_to && *actions.seek_to == timeline.end;
+  }
+  CHECK(wide >= 6);  // of a knob 14 wide the half beyond the track
+}
+
+TEST_CASE("Esc, End and a button of the bar end fast-forwarding") {
+  Driver driver;
+  Timeline timeline = half_way();
+  timeline.fast_forward_target = 800;
+  driver.panel.set_timeline(timeline);
+  driver.panel.perform(Action::release);
+  CHECK(driver.draw().requests == std::vector{Request::live});
+  float x = 860;
+  for (; x < 1020; x += 4) {
+    driver.move({x, bar_y});
+    driver.draw();
+    if (driver.panel.hovered() == "Stop here") break;
+  }
+  CHECK(driver.click().requests == std::vector{Request::live});
+}
+
+TEST_CASE("the track is long enough to be used in a narrow image with large text") {
+  Driver driver(small_scene(), 800, 500, 1.44f);
+  driver.panel.set_timeline(half_way());
+  driver.draw();
+  int longest = 0;  // pixels
+  for (float y = 400; y < 500; y += 4) {
+    int here = 0;
+    for (float x = 400; x < 800; x += 4) {
+      driver.move({x, y});
+      driver.draw();
+      if (driver.panel.hovered() == "Timeline") here += 4;
+    }
+    longest = std::max(longest, here);
+  }
+  CHECK(longest > 200);
+}
+
 TEST_CASE("keys seek frames, the start and live, resume, and record a video") {
   Driver driver;
   for (const auto& [action, request] :
