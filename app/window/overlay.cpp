@@ -109,38 +109,44 @@ void draw_forces(const Frame& frame, const render::HandDrawing& hands, const pan
   for (const ToolState& tool : frame.tools) std::visit(labels, tool);
 }
 
-void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,
+void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh, const Section& section,
                      const panel::CameraController& controller) {
   const auto place = std::find(surface_mesh.nodes.begin(), surface_mesh.nodes.end(), node);
   if (place == surface_mesh.nodes.end()) return;
   const auto k = static_cast<std::size_t>(place - surface_mesh.nodes.begin());
+  if (render::is_left_out(section, frame.positions[k])) return;
   const render::Vec2f at = controller.pixel(frame.positions[k]);
   if (!at.allFinite()) return;
   ImGui::GetBackgroundDrawList()->AddCircle({at.x(), at.y()}, panel::em(0.45f), panel::colours::warning, 16,
                                             panel::em(0.16f));
 }
 
-void draw_measured(const panel::Measured& measured, const panel::CameraController& controller) {
+void draw_measured(const panel::Measured& measured, const Section& section, const panel::CameraController& controller) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  std::vector<ImVec2> line;
-  for (const Vec3f& place : measured.places) {
+  const auto pixel = [&](const Vec3f& place) -> ImVec2 {
     const render::Vec2f at = controller.pixel(place);
-    if (!at.allFinite()) return;
-    line.emplace_back(at.x(), at.y());
-  }
-  list.AddPolyline(line.data(), static_cast<int>(line.size()), panel::colours::background, ImDrawFlags_None,
-                   panel::em(0.3f));
-  list.AddPolyline(line.data(), static_cast<int>(line.size()), panel::colours::warning, ImDrawFlags_None,
-                   panel::em(0.14f));
-  for (const ImVec2& at : line) {
+    return {at.x(), at.y()};
+  };
+  const auto is_unknown = [&](const Vec3f& place) { return !controller.pixel(place).allFinite(); };
+  if (std::any_of(measured.places.begin(), measured.places.end(), is_unknown)) return;
+  std::vector<ImVec2> points;
+  for (const Vec3f& place : measured.places)
+    if (!render::is_left_out(section, place)) points.push_back(pixel(place));
+  std::vector<std::array<ImVec2, 2>> lines;
+  for (std::size_t k = 1; k < measured.places.size(); ++k)
+    if (const auto part = render::part_left_in(section, measured.places[k - 1], measured.places[k]))
+      lines.push_back({pixel((*part)[0]), pixel((*part)[1])});
+  for (const auto& [colour, width] : {std::pair(panel::colours::background, 0.3f), {panel::colours::warning, 0.14f}})
+    for (const auto& [from, to] : lines) list.AddLine(from, to, colour, panel::em(width));
+  for (const ImVec2& at : points) {
     list.AddCircleFilled(at, panel::em(0.3f), panel::colours::background, 20);
     list.AddCircleFilled(at, panel::em(0.2f), panel::colours::warning, 20);
   }
   const std::string text = panel::measured_text(measured);
-  if (text.empty()) return;
+  if (text.empty() || points.empty()) return;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str()), pad = label_pad();
   const ImVec2 whole(size.x + 2 * pad.x, size.y + 2 * pad.y);
-  const ImVec2 from = place_beside(line, whole, free_of(controller), panel::em(0.6f));
+  const ImVec2 from = place_beside(points, whole, free_of(controller), panel::em(0.6f));
   draw_label_at({from.x + pad.x, from.y + pad.y}, text, panel::colours::warning);
 }
 
@@ -190,11 +196,11 @@ void draw_section(const render::SectionPlane& plane, const Vec3f& handle, float 
 }
 
 void draw_nodes(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh,
-                const panel::CameraController& controller) {
+                const Section& section, const panel::CameraController& controller) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const int node : nodes) {
     const auto index = render::surface_index(node, surface_mesh);
-    if (!index) continue;
+    if (!index || render::is_left_out(section, frame.positions[*index])) continue;
     const render::Vec2f at = controller.pixel(frame.positions[*index]);
     if (!at.allFinite()) continue;
     list.AddCircleFilled({at.x(), at.y()}, panel::em(0.24f), panel::colours::background, 10);

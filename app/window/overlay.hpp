@@ -5,6 +5,7 @@
 #include <app/render/field_colours.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/pick.hpp>
+#include <app/render/section.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,13 +25,16 @@ void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh&
 /// Forces (N) next to active grasps, pins, probe and sutures, kept beside the panel.
 void draw_forces(const Frame& frame, const render::HandDrawing& hands, const panel::CameraController& controller);
 
+/// Marks on the body are left out with the part of it that this plane, if there is one, leaves out.
+using Section = std::optional<render::SectionPlane>;
+
 /// The first end of an unfinished suture. node: mesh-file number.
-void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,
+void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh, const Section& section,
                      const panel::CameraController& controller);
 
 /// Selected nodes (mesh-file numbers, ascending) that the surface has, as dots.
 void draw_nodes(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh,
-                const panel::CameraController& controller);
+                const Section& section, const panel::CameraController& controller);
 
 /// The forces (N) of loads on nodes, as arrows from the middle of theirs, the longest a quarter of the body's radius;
 /// without those on `except`, which have an arrow of their own.
@@ -53,7 +57,7 @@ void draw_arrow_handle(const Vec3f& tip, bool hovered, const panel::CameraContro
 void draw_outline(const std::vector<render::Vec2f>& outline);
 
 /// The points of a measure and their lines, with the numbers beside them.
-void draw_measured(const panel::Measured& measured, const panel::CameraController& controller);
+void draw_measured(const panel::Measured& measured, const Section& section, const panel::CameraController& controller);
 
 /// The point (m) that the camera turns about.
 void draw_pivot(const Vec3f& point, const panel::CameraController& controller);

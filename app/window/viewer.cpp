@@ -197,26 +197,29 @@ void Viewer::remember_preferences() {
 }
 
 void Viewer::draw_marks() {
+  const Section section = panel_->drawing().section;
   panel::each_pane(*frame_, controller_, [&](std::size_t pane, const Frame& body) {
     if (pane == 0 && (panel_->tool().tool == panel::Tool::select || !panel_->selecting().selection().is_empty())) {
-      draw_nodes(panel_->selecting().selection().nodes(), body, *body.surface_mesh, controller_);
-      if (selection_drag_.is_on()) draw_nodes(selection_drag_.painted(), body, *body.surface_mesh, controller_);
+      draw_nodes(panel_->selecting().selection().nodes(), body, *body.surface_mesh, section, controller_);
+      if (selection_drag_.is_on())
+        draw_nodes(selection_drag_.painted(), body, *body.surface_mesh, section, controller_);
       draw_loads(body.conditions->loads, panel_->selecting().selection().nodes(), body, *body.surface_mesh,
                  controller_);
     }
     if (pane == 0) draw_arrows();
-    if (pane == 0) draw_measured(panel_->measure().now(), controller_);
+    if (pane == 0) draw_measured(panel_->measure().now(), section, controller_);
     if (pane == 0) draw_reach();
     draw_forces(body, hands(), controller_);
-    if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
+    if (mouse_tool_.first_end())
+      draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, section, controller_);
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });
   draw_outline(selection_drag_.outline());
   panel::draw_variant_labels(*frame_, controller_);
-  if (const auto plane = panel_->drawing().section)
+  if (section)
     panel::each_pane(*frame_, controller_, [&](std::size_t, const Frame&) {
-      const panel::SectionControl& section = panel_->view().section();
-      draw_section(*plane, section.handle(), section.radius(), drags_section_ || is_on_section_handle(), controller_);
+      const panel::SectionControl& control = panel_->view().section();
+      draw_section(*section, control.handle(), control.radius(), drags_section_ || is_on_section_handle(), controller_);
     });
   if (mouse_tool_.pivot()) draw_pivot(*mouse_tool_.pivot(), controller_);
   if (drags_section_ || is_on_section_handle() || arrow_drag_.is_on() || arrow_at_mouse())

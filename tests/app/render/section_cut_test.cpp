@@ -79,4 +79,16 @@ TEST_CASE("a plane beside the body, one through its face, and positions that are
   CHECK(cut_section(solid, positions, {Vec3f::UnitX(), 0.5f}).empty());
 }
 
+TEST_CASE("of a segment that crosses the plane the part on the shown side is left") {
+  const SectionPlane plane{Vec3f::UnitX(), 0.25f};
+  const Vec3f in(0, 0, 0), out(1, 2, 0), crossing(0.25f, 0.5f, 0);
+  CHECK(part_left_in(std::nullopt, in, out) == std::array{in, out});
+  CHECK(part_left_in(plane, in, out) == std::array{in, crossing});
+  CHECK(part_left_in(plane, out, in) == std::array{crossing, in});
+  CHECK_FALSE(part_left_in(plane, out, out));
+  CHECK(is_left_out(plane, out));
+  CHECK_FALSE(is_left_out(plane, in));
+  CHECK_FALSE(is_left_out(std::nullopt, out));
+}
+
 }  // namespace heml::section_cut_test
