@@ -9,6 +9,7 @@ namespace {
 constexpr double sliver = 0.05;        // of least height over longest edge
 constexpr double incompressible = 50;  // κ/μ, at ν = 0.49
 constexpr double fast = 1;             // of the speed of shear waves
+constexpr double least_shrink = 0.02;  // of lengths: less is borne by any law
 
 std::string what(const FailureDiagnosis& s) {
   if (s.element < 0) return fmt::format("a node ran away at t = {:.4g} s", s.time);
@@ -30,6 +31,11 @@ std::string why(const FailureDiagnosis& s) {
         "the tool moves at {:.2g} m/s and waves in this tissue at {:.2g} m/s: move it more slowly, or grasp more "
         "tissue",
         s.tool_speed, s.wave_speed);
+  if (s.burn_shrink > least_shrink)
+    return fmt::format(
+        "burnt tissue there has shrunk by {:.0f} % of its length and drags it along: burn less deeply or with less "
+        "shrink, take a finer mesh there, or undo the burn",
+        100 * s.burn_shrink);
   if (s.thinness < sliver)
     return fmt::format("it is a sliver ({:.2g} high for a longest edge of 1): improve the mesh there", s.thinness);
   if (s.stiffness_ratio > incompressible)
@@ -38,6 +44,9 @@ std::string why(const FailureDiagnosis& s) {
         "bears more",
         s.stiffness_ratio);
   if (s.pulled) return "the tool pulls or presses harder than the law bears: do so more gently, or grasp more tissue";
+  if (!s.loaded)
+    return "its own motion, or what was changed last of mesh or material, since no load acts: undo that, or take a "
+           "stiffer material";
   return "loads or moved supports deform it more than the law bears: load it more gently, or take a stiffer material";
 }
 

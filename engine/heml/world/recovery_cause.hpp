@@ -16,7 +16,9 @@ struct FailureDiagnosis {
   double wave_speed = 0;       ///< m/s, of shear waves
   double thinness = 1;         ///< of the element at rest: its least height over its longest edge
   double stiffness_ratio = 0;  ///< κ/μ of its material; 0: no continuum
+  double burn_shrink = 0;      ///< part of its lengths at rest that it, or an element beside it, has lost to burns
   bool pulled = false;         ///< a tool holds the body
+  bool loaded = true;          ///< loads, gravity, supports that move, pins or contacts act on it
 };
 
 /// One sentence: what happened, the likely cause, the remedy.

@@ -177,6 +177,7 @@ FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& check) con
   s.from_start = !s_.recovery->has_last_good;
   s.tool_speed = s_.recovery->tool_speed;
   s.pulled = !s_.grasps.empty();
+  s.loaded = is_loaded();
   s.wave_speed = shear_wave_speed();
   s.thinness = thinness(s_.model->mesh, check.worst);
   if (s_.setup->solver.step && is_explicit(s_.setup->solver.integrator)) {
@@ -185,10 +186,35 @@ FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& check) con
   }
   if (check.min_J >= min_healthy_J && check.speed > s_.recovery->max_speed) return s;
   s.element = s_.model->order.file_tet[static_cast<std::size_t>(check.worst)];
+  s.burn_shrink = burn_shrink_at(check.worst);
   const int material = s_.model->material_of[static_cast<std::size_t>(check.worst)];
   const SmallStrainModuli rest = small_strain_moduli(s_.setup->materials[static_cast<std::size_t>(material)].material);
   if (rest.shear > 0) s.stiffness_ratio = rest.bulk / rest.shear;
   return s;
+}
+
+/// The largest part that an element, or one beside it, has lost of its lengths at rest.
+template <class Real>
+double RecoveryController<Real>::burn_shrink_at(int element) const {
+  const TetMesh& mesh = s_.model->mesh;
+  if (mesh.burns.empty()) return 0;
+  const Tet& here = mesh.tets[static_cast<std::size_t>(element)];
+  double shrink = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto is_here = [&](int node) { return std::find(here.begin(), here.end(), node) != here.end(); };
+    if (std::any_of(mesh.tets[t].begin(), mesh.tets[t].end(), is_here))
+      shrink = std::max(shrink, 1 - rest_scale(mesh, t));
+  }
+  return shrink;
+}
+
+/// Whether anything but tools in a hand deforms the body.
+template <class Real>
+bool RecoveryController<Real>::is_loaded() const {
+  const WorldSetup& setup = *s_.setup;
+  const auto moves = [](const Boundary& entry) { return entry.translate.norm() > 0 || entry.degrees != 0; };
+  return setup.gravity.norm() > 0 || !setup.loads.empty() || !s_.pins.empty() || s_.contacts.has_tools() ||
+         std::any_of(setup.boundary.begin(), setup.boundary.end(), moves);
 }
 
 /// At exact coincidence all forces are zero.

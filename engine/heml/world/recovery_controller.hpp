@@ -45,6 +45,8 @@ class RecoveryController {
   void go_back();
   void begin(const StateCheck& check);
   FailureDiagnosis diagnose(const StateCheck& check) const;
+  double burn_shrink_at(int element) const;
+  bool is_loaded() const;
   void perturb();
   void step_surrogate(double until);
   void move_towards_rest(double part);

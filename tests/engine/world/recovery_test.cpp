@@ -387,12 +387,17 @@ TEST_CASE("recovery: the likely cause is the surest that fits, with its remedy")
   CHECK(says("element 7 was flat or inside out"));
   CHECK(says("with 4 in all inverted"));
   CHECK(says("loads or moved supports"));
+  s.loaded = false;
+  CHECK(says("no load acts"));
+  s.loaded = true;
   s.pulled = true;
   CHECK(says("the tool pulls or presses"));
   s.stiffness_ratio = 500;
   CHECK(says("its volume resists 500 times as much as its shape"));
   s.thinness = 0.01;
   CHECK(says("sliver"));
+  s.burn_shrink = 0.2;
+  CHECK(says("burnt tissue there has shrunk by 20 % of its length"));
   s.tool_speed = 3;
   CHECK(says("the tool moves at 3 m/s and waves in this tissue at 2 m/s"));
   s.step = 2e-3, s.limit = 1e-3;
