@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <app/panel/legend.hpp>
+#include <app/panel/rows.hpp>
 #include <app/panel/theme.hpp>
 #include <heml/world/field_list.hpp>
 
@@ -51,12 +52,17 @@ void draw_legend(Field field, const render::Range& whole, const Area& free, bool
                      colours::background, em(0.5f));
   std::string title = label.unit.empty() ? label.title : fmt::format("{}, {}", label.title, label.unit);
   if (field == Field::volume_ratio && range.low < 0) title += " (below 0: inverted)";
-  centred(list, middle, bar.from.y - line - em(0.25f), colours::text, title);
+  centred(list, middle, bar.from.y - line - em(0.25f), colours::text, elided(title, width + 2 * pad));
   draw_bar(list, field, (range.low - whole.low) / (whole.high - whole.low), bar);
+  float free_from = 0;  // pixels, after the last number
   for (const float tick : render::ticks({range.low * label.scale, range.high * label.scale})) {
     const float x = bar.from.x + (tick / label.scale - range.low) / (range.high - range.low) * width;
+    const std::string number = fmt::format("{:g}", tick);
+    const float half = ImGui::CalcTextSize(number.c_str()).x / 2;
     list.AddLine({x, bar.to.y}, {x, bar.to.y + em(0.15f)}, colours::muted);
-    centred(list, x, bar.to.y + em(0.15f), colours::muted, fmt::format("{:g}", tick));
+    if (x - half < free_from) continue;
+    centred(list, x, bar.to.y + em(0.15f), colours::muted, number);
+    free_from = x + half + em(0.3f);
   }
 }
 

@@ -186,12 +186,13 @@ PanelActions Panel::draw(const Frame& frame) {
   const Insets taken = insets(picture);
   Area free{{taken.left, 0}, {picture.x - taken.right, picture.y}};
   const float palette = hidden_ ? 0 : draw_edges(frame, free, out);
-  draw_legend(frame.field, range_, free, !(frame.min_J > 0));
+  const Area beside_palette{{free.from.x + palette, free.from.y}, {free.to.x - palette, free.to.y}};
+  draw_legend(frame.field, range_, beside_palette, !(frame.min_J > 0));
   if (!hidden_) {
     draw_controls(frame, !two_columns(picture), out);
     if (two_columns(picture)) draw_readings_column(frame);
   }
-  const Area between{{free.from.x + palette, free.from.y + labels_height(frame)}, {free.to.x - palette, free.to.y}};
+  const Area between{{beside_palette.from.x, free.from.y + labels_height(frame)}, beside_palette.to};
   const auto banner = state_banner_.choose(frame, motion_.integrator(), motion_.budget(), beside_body(free, picture));
   take_press(notices_.draw(rows_, between, banner, ImGui::GetIO().DeltaTime), frame, out);
   out.open_folder = notices_.take_folder();
@@ -228,7 +229,10 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
   const float top = std::max(sign, free.from.y + labels_height(frame));
   if (camera_) draw_axes(rows_, *camera_, free, top, pressed_, rects_.emplace_back());
   if (!view_.hints()) return width;
-  draw_hints(situation(frame), free);
+  Area line = free;
+  if (palette.to.y > free.to.y - hint_height())
+    line = {{free.from.x + width, free.from.y}, {free.to.x - width, free.to.y}};
+  draw_hints(situation(frame), line);
   free.to.y -= hint_height();
   return width;
 }
