@@ -46,7 +46,7 @@ std::vector<std::string> tool_hints(const Situation& now) {
 std::vector<std::string> idle_hints(const Situation& now) {
   if (now.halted) return {with_key(Action::reset, "starts again"), with_key(Action::undo, "goes back")};
   if (now.past)
-    return {"a past moment", with_key(Action::resume, "goes on from here"), "Left, Right: a picture", "Esc: live"};
+    return {"a past frame", with_key(Action::resume, "goes on from here"), "Left, Right: a frame", "Esc: live"};
   std::vector<std::string> hints = tool_hints(now);
   if (now.hides && (now.tool == Tool::scalpel || now.tool == Tool::scissors))
     hints.insert(hints.begin() + 1, "hidden tissue is cut too");

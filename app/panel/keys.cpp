@@ -26,7 +26,7 @@ constexpr KeyBinding bindings[] = {
     {'3', none, Action::show_stretch, "3", "colours: stretch"},
     {'4', none, Action::show_von_mises, "4", "colours: von Mises stress"},
     {'5', none, Action::show_volume_ratio, "5", "colours: volume ratio"},
-    {'6', none, Action::show_error, "6", "colours: discretisation error"},
+    {'6', none, Action::show_error, "6", "colours: mesh error"},
     {'W', none, Action::wireframe, "W", "wireframe"},
     {'K', none, Action::section, "K", "section plane: cut the drawn body open, or whole again"},
     {key_f5, none, Action::view_1, "F5 to F8", "restore a saved view"},

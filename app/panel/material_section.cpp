@@ -4,9 +4,11 @@
 #include <app/panel/material_section.hpp>
 #include <app/panel/parameter_rows.hpp>
 #include <app/panel/quantity.hpp>
+#include <app/panel/region_section.hpp>
 #include <app/panel/tissue_choice.hpp>
 #include <cmath>
 #include <heml/materials/match_moduli.hpp>
+#include <iterator>
 #include <utility>
 
 namespace heml::panel {
@@ -14,12 +16,6 @@ namespace {
 
 constexpr double max_active_stress = 200;  // kPa, of the slider
 constexpr float tall_picture = 54;  // em: in images at least this high the curve starts open
-
-std::string name_of(const RegionMaterial& entry, const std::map<int, std::string>& names) {
-  if (const auto name = entry.region ? names.find(*entry.region) : names.end(); name != names.end())
-    return fmt::format("{} ({})", name->second, *entry.region);
-  return entry.region ? fmt::format("Region {}", *entry.region) : std::string("Default");
-}
 
 void warn_in_panel(const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, colours::warning);
@@ -41,8 +37,10 @@ void MaterialSection::sync(const SetActiveStress& command) {
   ++changes_;
 }
 
-void MaterialSection::take(const std::vector<RegionMaterial>& materials, const std::map<int, std::string>& names) {
+void MaterialSection::take(const std::vector<RegionMaterial>& materials, const std::map<int, std::string>& names,
+                           std::vector<int> regions) {
   names_ = names;
+  regions_ = std::move(regions);
   std::vector<RegionMaterial> before = std::exchange(materials_, materials);
   bool changed = before.size() != materials_.size();
   for (RegionMaterial& entry : materials_) {
@@ -90,10 +88,21 @@ void MaterialSection::draw(Rows& rows, double stretched, PanelActions& out) {
 
 void MaterialSection::draw_region(Rows& rows) {
   std::vector<std::string> names;
-  for (const RegionMaterial& entry : materials_) names.push_back(name_of(entry, names_));
-  if (rows.choice({"Region", "The region of the mesh to edit; Default: all regions without a material of their own."},
+  for (const RegionMaterial& entry : materials_) names.push_back(name_of(entry));
+  if (rows.choice({"Region", "The region of the mesh to edit. Other regions: all without a material of their own."},
                   chosen_, names))
     problem_.clear();
+}
+
+/// The entry for regions without one of their own is named after the region, where that is one alone.
+std::string MaterialSection::name_of(const RegionMaterial& entry) const {
+  if (entry.region) return region_name(*entry.region, names_);
+  std::vector<int> others;
+  std::copy_if(regions_.begin(), regions_.end(), std::back_inserter(others), [&](int region) {
+    return std::none_of(materials_.begin(), materials_.end(),
+                        [&](const RegionMaterial& other) { return other.region == region; });
+  });
+  return others.size() == 1 ? region_name(others.front(), names_) : std::string("Other regions");
 }
 
 bool MaterialSection::draw_law(Rows& rows, Material& material) {

@@ -12,9 +12,10 @@ namespace heml::panel {
 
 class MaterialSection {
  public:
-  /// names: of regions, where there are any.
-  explicit MaterialSection(std::vector<RegionMaterial> materials, std::map<int, std::string> names = {})
-      : materials_(std::move(materials)), names_(std::move(names)) {}
+  /// names: of regions that have one. regions: of the mesh.
+  explicit MaterialSection(std::vector<RegionMaterial> materials, std::map<int, std::string> names = {},
+                           std::vector<int> regions = {})
+      : materials_(std::move(materials)), names_(std::move(names)), regions_(std::move(regions)) {}
 
   /// Adds one SetMaterial if the user changed the material, one SetActiveStress if its contraction, and
   /// material_problem() has no objection. stretched: share of surface nodes stretched beyond the measured range of
@@ -26,7 +27,8 @@ class MaterialSection {
   void sync(const SetActiveStress& command);
   /// Entries that there are now, of regions and their names. Those of fields keep what the scene says of them; the
   /// newest one is shown.
-  void take(const std::vector<RegionMaterial>& materials, const std::map<int, std::string>& names);
+  void take(const std::vector<RegionMaterial>& materials, const std::map<int, std::string>& names,
+            std::vector<int> regions);
   void show(int region);  ///< the entry of a region, if it has one
 
   const std::vector<RegionMaterial>& materials() const { return materials_; }
@@ -34,6 +36,7 @@ class MaterialSection {
 
  private:
   void draw_region(Rows& rows);
+  std::string name_of(const RegionMaterial& entry) const;
   bool draw_law(Rows& rows, Material& material);
   bool draw_numbers(Rows& rows, Material& material, const LawInfo& law);
   void draw_contraction(Rows& rows, RegionMaterial& entry, PanelActions& out);
@@ -41,6 +44,7 @@ class MaterialSection {
 
   std::vector<RegionMaterial> materials_;
   std::map<int, std::string> names_;  ///< by region
+  std::vector<int> regions_;          ///< of the mesh
   MaterialCurve curve_;
   int chosen_ = 0;           ///< index into materials_
   int changes_ = 0;          ///< of materials_, counted

@@ -92,9 +92,9 @@ std::vector<Offer<UpAxis>> up_offers(UpAxis now) {
 Offer<SupportKind> support_offer(SupportKind kind, bool is_now) {
   switch (kind) {
     case SupportKind::underside:
-      return {"underside held", "Rests on its lowest part, which is held.", kind, is_now};
+      return {"underside fixed", "Rests on its lowest part, which is fixed.", kind, is_now};
     case SupportKind::top:
-      return {"top held", "Hangs from its highest part, which is held.", kind, is_now};
+      return {"top fixed", "Hangs from its highest part, which is fixed.", kind, is_now};
     case SupportKind::table:
       return {"on a table", "Lies loose on a table with friction.", kind, is_now};
   }

@@ -37,7 +37,7 @@ Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, 
       description_(scene.description),
       tool_(static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius), scene.gravity),
       mesh_(scene),
-      material_(scene.materials, region_names),
+      material_(scene.materials, region_names, regions),
       stretch_monitor_(surface_mesh),
       surface_version_(surface_mesh.version),
       surface_hidden_(surface_mesh.hidden),
@@ -129,7 +129,7 @@ void Panel::update_settings(const Frame& frame) {
 void Panel::update_regions(const Frame& frame) {
   if (!frame.regions || frame.regions->version == seen_regions_) return;
   seen_regions_ = frame.regions->version;
-  material_.take(frame.regions->materials, frame.regions->names);
+  material_.take(frame.regions->materials, frame.regions->names, frame.regions->numbers);
   regions_.take(frame.regions->numbers, frame.regions->names);
   for (const auto& [region, name] : frame.regions->names) need_letters(name);
 }

@@ -72,10 +72,15 @@ void draw_energies(Rows& rows, const Frame& frame, const History& history) {
 
 void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   const bool inverted = !(frame.min_J > 0);
+  const bool is_part = frame.surface_mesh && !frame.surface_mesh->hidden.empty();
   if (frame.surface_mesh) {
     const double now = enclosed_volume(*frame.surface_mesh, frame.positions),
                  rest = enclosed_volume(*frame.surface_mesh);
-    rows.value({"Body volume", "Volume of the shown regions, cm³, and relative to rest."},
+    rows.value(is_part
+                   ? Label{"Shown regions",
+                           "Volume of the shown regions alone, cm³, and relative to rest. The section Regions shows "
+                           "the others again."}
+                   : Label{"Body volume", "Volume of the body, cm³, and relative to rest."},
                fmt::format("{:.4g} cm³, {:.1f} %", now * 1e6, 100 * now / rest), colours::text);
   }
   rows.value({"Min J", "Smallest volume ratio of a tetrahedron; 0 or less: inverted."},
@@ -101,14 +106,14 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   const Curve curves[] = {
       {"Min", colours::potential, [](const Reading& r) { return r.min_J; }},
       {"Max", colours::kinetic, [](const Reading& r) { return r.max_J; }},
-      {"Whole", colours::text, [](const Reading& r) { return r.volume; }},
+      {is_part ? "Shown" : "Whole", colours::text, [](const Reading& r) { return r.volume; }},
   };
   plot("volume plot", history, curves, {"", 1, 0.01, 3.6f});
 }
 
 void draw_errors(Rows& rows, const Frame& frame, const History& history) {
   rows.value(
-      {"Discretisation error",
+      {"Mesh error",
        "Estimated discretisation error, % of the energy norm (Zienkiewicz and Zhu: stress against fits to patches). "
        "Roughly proportional to edge length; colours (6) show where it is. It does not include locking or time "
        "errors."},
@@ -132,11 +137,12 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
   const Pace& pace = frame.pace;
   const auto time_of = [](double seconds) { return seconds > 0 ? quantity(seconds, "s") : std::string("–"); };
   const double steps = frame.substeps > 0 ? frame.substeps : 1;
-  rows.value({"Time per step", "Wall time of computing one integration step, s: median of the last 1000 ticks."},
+  rows.value({"Time per step", "Wall time of computing one integration step, s: median over the last second."},
              time_of(pace.p50 / steps), 0);
-  rows.value({"Time per tick", "Wall time of computing one tick, s: median of the last 1000."}, time_of(pace.p50),
+  rows.value({"Time per tick", "Wall time of computing one tick, s: median over the last second."}, time_of(pace.p50),
              colours::accent);
-  rows.value({"99th percentile", "99th percentile of the wall time per tick, s."}, time_of(pace.p99), colours::warning);
+  rows.value({"99th percentile", "99th percentile of the wall time per tick over the last second, s."},
+             time_of(pace.p99), colours::warning);
   rows.value({"Rate", "Ticks per simulated second, Hz; set by the scene (solver.rate or solver.step)."},
              fmt::format("{:.4g} Hz", pace.rate));
   rows.value({"Steps per tick", "Substeps per tick, chosen for stability."}, fmt::format("{}", frame.substeps));

@@ -50,9 +50,9 @@ void RegionSection::show_only(int region) {
                [&](int other) { return other != region; });
 }
 
-std::string RegionSection::name_of(int region) const {
-  const auto name = names_.find(region);
-  return name == names_.end() ? fmt::format("Region {}", region) : name->second;
+std::string region_name(int region, const std::map<int, std::string>& names) {
+  const auto name = names.find(region);
+  return name == names.end() ? fmt::format("Region {}", region) : name->second;
 }
 
 void RegionSection::draw(Rows& rows) {
@@ -65,7 +65,7 @@ void RegionSection::draw(Rows& rows) {
 }
 
 void RegionSection::draw_region(Rows& rows, int region) {
-  const std::string name = name_of(region);
+  const std::string name = region_name(region, names_);
   const bool shown = is_shown(region);
   const float size = ImGui::GetFrameHeight();
   const float only = ImGui::CalcTextSize("only").x + 2 * ImGui::GetStyle().FramePadding.x;

@@ -7,6 +7,9 @@
 
 namespace heml::panel {
 
+/// Of a region, by names of those that have one.
+std::string region_name(int region, const std::map<int, std::string>& names);
+
 class RegionSection {
  public:
   /// hidden: regions, ascending; those that the mesh has not are forgotten.
@@ -26,7 +29,6 @@ class RegionSection {
  private:
   bool is_shown(int region) const;
   void draw_region(Rows& rows, int region);
-  std::string name_of(int region) const;
 
   std::vector<int> regions_, hidden_;  // ascending
   std::map<int, std::string> names_;

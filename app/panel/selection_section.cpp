@@ -50,7 +50,7 @@ void SelectionSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
 
 void SelectionSection::draw_supports(Rows& rows, const Conditions& conditions, PanelActions& out) {
   const std::vector<int>& nodes = selection_.nodes();
-  rows.value({"Held", "How many of them the scene fixes or moves."},
+  rows.value({"Constrained", "How many of them the scene fixes, or moves as prescribed."},
              share_text(count_in(conditions.boundary, nodes), nodes.size()));
   static const std::vector<std::string> names{"x, y and z", "x", "y", "z", "x and y", "x and z", "y and z"};
   constexpr std::array<AxisSet, 7> axes{{{},
@@ -60,8 +60,9 @@ void SelectionSection::draw_supports(Rows& rows, const Conditions& conditions, P
                                          {{true, true, false}},
                                          {{true, false, true}},
                                          {{false, true, true}}}};
-  rows.choice({"Fix along", "In which directions Fix holds the nodes. Held in one alone they slide on a plane: a roller, "
-                            "or a plane of symmetry."},
+  rows.choice({"Fix along",
+               "In which directions Fix fixes the nodes. Fixed in one alone they slide on a plane: a roller, "
+               "or a plane of symmetry."},
               fixed_axes_, names);
   const float half = half_row();
   if (rows.button({"Fix", "Fixes the selected nodes at their place at rest: tissue that has moved goes back there at "
@@ -69,7 +70,7 @@ void SelectionSection::draw_supports(Rows& rows, const Conditions& conditions, P
                   half))
     out.commands.emplace_back(fixed(conditions, nodes, axes[static_cast<std::size_t>(fixed_axes_)]));
   ImGui::SameLine(0, em(0.4f));
-  if (rows.button({"Free", "Nothing of the scene holds or moves the selected nodes any more."}, half))
+  if (rows.button({"Free", "The scene constrains the selected nodes no more."}, half))
     if (auto set = freed(conditions, nodes)) out.commands.emplace_back(std::move(*set));
 }
 

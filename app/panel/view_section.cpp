@@ -71,7 +71,7 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
   int chosen = static_cast<int>(field_);
   if (rows.choice({"Colours",
                    "Field shown on the surface (keys 1 to 6: the first six): displacement, stretch, stresses, strains, "
-                   "or the estimated discretisation error."},
+                   "or the mesh error (estimated discretisation error)."},
                   chosen, titles(), meanings()))
     show(static_cast<Field>(chosen), out);
   if (field_ != Field::none) draw_range(rows);

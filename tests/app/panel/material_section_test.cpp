@@ -120,6 +120,22 @@ TEST_CASE("a region's material is changed for that region") {
   CHECK(set.material.density > 1100);
 }
 
+TEST_CASE("the one region without a material of its own has its name, and several together have one") {
+  {
+    Driver driver(small_scene(), 1280, 760, 1, {{1, "liver"}}, {1, 2});
+    driver.choose("Region", "Region 2");
+    driver.choose("Region", "liver");
+  }
+  {
+    Driver driver(small_scene(), 1280, 760, 1, {}, {1, 2});
+    driver.choose("Region", "Region 2");
+    driver.choose("Region", "Region 1");
+  }
+  Driver driver(small_scene(), 1280, 760, 1, {}, {1, 2, 3});
+  driver.choose("Region", "Region 2");
+  driver.choose("Region", "Other regions");
+}
+
 TEST_CASE("the panel edits the material that a script has set") {
   Driver driver;
   driver.panel.sync(SetMaterial{std::nullopt, {"stvk", {3e4, 2e4}, 1200}});

@@ -48,7 +48,7 @@ TEST_CASE("the choice that is shown changes nothing") {
   Driver driver(mesh_scene());
   CHECK_FALSE(driver.choose("Unit", "centimetres").mesh_options);
   CHECK_FALSE(driver.choose("Up", "z").mesh_options);
-  CHECK_FALSE(driver.choose("Supports", "underside held").mesh_options);
+  CHECK_FALSE(driver.choose("Supports", "underside fixed").mesh_options);
 }
 
 TEST_CASE("a choice keeps the earlier ones, and a button at its end goes back to the guess") {
@@ -57,7 +57,7 @@ TEST_CASE("a choice keeps the earlier ones, and a button at its end goes back to
   Driver driver(mesh_scene(given));
   BareMeshOptions wanted = given;
   wanted.supports = SupportKind::underside;
-  CHECK(driver.choose("Supports", "underside held").mesh_options == wanted);
+  CHECK(driver.choose("Supports", "underside fixed").mesh_options == wanted);
   const auto without = [&](auto BareMeshOptions::*option) {
     BareMeshOptions rest = given;
     (rest.*option).reset();

@@ -360,6 +360,10 @@ TEST_CASE("the panel draws error and slowdown plots next to their values") {
   }
   driver.find("Slowdown", 1180);
   driver.find("Body volume", 1180);
+  SurfaceMesh part = small_surface();
+  part.hidden = {2};
+  driver.frame.surface_mesh = std::make_shared<const SurfaceMesh>(part);
+  driver.find("Shown regions", 1180);
 }
 
 TEST_CASE("devices that move a hand have rows, and what a SpaceMouse moves is chosen there and remembered") {

@@ -29,7 +29,7 @@ TEST_CASE("the section is there while the tool is chosen or something is selecte
   driver.select({11, 12});
   driver.panel.perform(panel::Action::select_grasper);
   driver.draw();
-  driver.find("Held");
+  driver.find("Constrained");
 }
 
 TEST_CASE("what a drag does is chosen") {
