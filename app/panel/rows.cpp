@@ -108,7 +108,12 @@ void Rows::begin(const Label& label) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, colours::muted);
   const float left = ImGui::GetCursorPosX();
-  ImGui::TextUnformatted(elided(label.text, em(label_width) - ImGui::GetStyle().ItemSpacing.x).c_str());
+  const float room = em(label_width) - ImGui::GetStyle().ItemSpacing.x;
+  {
+    std::optional<UseFont> small;
+    if (ImGui::CalcTextSize(label.text.c_str()).x > room) small.emplace(Font::small);
+    ImGui::TextUnformatted(elided(label.text, room).c_str());
+  }
   ImGui::PopStyleColor();
   explain(label);
   ImGui::SameLine(left + em(label_width));
