@@ -28,12 +28,12 @@ std::vector<Pane> make_panes(render::Size picture, const Insets& covered, std::s
   return panes;
 }
 
-void CameraController::fit(const View& view, const SurfaceMesh& surface_mesh, render::Size size, const Insets& covered,
-                           std::size_t bodies) {
+void CameraController::fit(const View& view, const render::BoundingSphere& ball, render::Size size,
+                           const Insets& covered, std::size_t bodies) {
   resize(size, covered, bodies);
   const Pane& first = panes_.front();
   const int free = first.size.width - static_cast<int>(first.covered.left + first.covered.right);
-  centred_ = render::camera_for(view, surface_mesh, {std::max(free, first.size.width / 4), first.size.height});
+  centred_ = render::camera_for(view, ball, {std::max(free, first.size.width / 4), first.size.height});
 }
 
 void CameraController::resize(render::Size size, const Insets& covered, std::size_t bodies) {

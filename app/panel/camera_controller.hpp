@@ -8,6 +8,7 @@
 #include <app/panel/area.hpp>
 #include <app/render/scene_camera.hpp>
 #include <array>
+#include <heml/session/frame.hpp>
 #include <optional>
 #include <vector>
 
@@ -26,9 +27,14 @@ std::vector<Pane> make_panes(render::Size picture, const Insets& covered, std::s
 
 class CameraController {
  public:
-  /// Sets the camera to the scene's view so that the body fits into the uncovered part of a pane.
-  void fit(const View& view, const SurfaceMesh& surface_mesh, render::Size size, const Insets& covered,
+  /// Sets the camera to the scene's view so that the ball fits into the uncovered part of a pane.
+  void fit(const View& view, const render::BoundingSphere& ball, render::Size size, const Insets& covered,
            std::size_t bodies = 1);
+  /// The same for a body at rest.
+  void fit(const View& view, const SurfaceMesh& surface_mesh, render::Size size, const Insets& covered,
+           std::size_t bodies = 1) {
+    fit(view, render::bounding_sphere(surface_mesh.rest), size, covered, bodies);
+  }
   /// Updates the panes for another image size, panel or number of bodies; the view stays.
   void resize(render::Size size, const Insets& covered, std::size_t bodies = 1);
 

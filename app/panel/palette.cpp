@@ -71,7 +71,8 @@ std::vector<Button> other_buttons(const PaletteState& state) {
   return {
       {"Table", "A fixed plane under the body, perpendicular to gravity, at its lowest point when added.",
        Action::toggle_table, draw_table, state.table},
-      {"Fit view", "Turns the camera back to the scene's view.", Action::fit, draw_frame},
+      {"Fit view", "Turns the camera back to the scene's view, about the body where it is now.", Action::fit,
+       draw_frame},
       {"Save image", "Writes a PNG into the working folder.", Action::screenshot, draw_camera},
       {state.filmed ? "Stop filming" : "Film",
        "Writes 30 frames per simulated second into a folder of the working folder, and at the end a video next to it "

@@ -1,12 +1,10 @@
-#include <app/render/bounds.hpp>
 #include <app/render/scene_camera.hpp>
 #include <numbers>
 
 namespace heml::render {
 
-Camera camera_for(const View& view, const SurfaceMesh& surface_mesh, Size size) {
+Camera camera_for(const View& view, const BoundingSphere& ball, Size size) {
   constexpr double degree = std::numbers::pi / 180;
-  const BoundingSphere ball = bounding_sphere(surface_mesh.rest);
   Camera camera;
   camera.fit(ball.centre, ball.radius, size);
   camera.look(static_cast<float>(view.azimuth.value_or(24) * degree),

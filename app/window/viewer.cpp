@@ -59,11 +59,11 @@ void Viewer::adopt(OpenScene opened) {
   show_mesh();
   next_event_ = 0;
   update_title();
-  if (open_.resumed && panel::body_count(*frame_) > bodies) fit();
+  if (open_.resumed && panel::body_count(*frame_) > bodies) fit(ball_of_bodies());
   if (open_.resumed) return;
   controller_.set_saved_views(saved_views(open_.scene.file));
   controller_.set_orthographic(open_.scene.view.orthographic);
-  fit();
+  fit(render::bounding_sphere(frame_->surface_mesh->rest));
 }
 
 /// A film has a sign here too, since the panel may be hidden.
@@ -72,13 +72,20 @@ void Viewer::update_title() {
   window_.set_title((films ? "● filming – " : "") + window_title(open_.scene));
 }
 
-void Viewer::fit() {
+void Viewer::fit(const render::BoundingSphere& ball) {
   const render::Size size = window_.size();
   View view = open_.scene.view;
   view.orthographic = controller_.is_orthographic();
-  controller_.fit(view, *frame_->surface_mesh, size,
-                  panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
+  controller_.fit(view, ball, size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                   panel::body_count(*frame_));
+}
+
+/// Round the bodies where they are now.
+render::BoundingSphere Viewer::ball_of_bodies() const {
+  std::vector<Vec3f> positions = frame_->positions;
+  for (const Frame& other : frame_->comparisons)
+    positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+  return render::bounding_sphere(positions);
 }
 
 bool Viewer::wants_drawing() const {

@@ -80,7 +80,8 @@ class Viewer final : public WindowEvents {
   void go_live();
   void follow_script();
   void update_title();
-  void fit();
+  void fit(const render::BoundingSphere& ball);
+  render::BoundingSphere ball_of_bodies() const;
   void compare(const std::vector<std::string>& variants);
   void resume_with(const std::vector<std::string>& comparisons);
   const Frame& seen() const { return panel::frame_in_pane(*frame_, controller_.current()); }  ///< in the current pane

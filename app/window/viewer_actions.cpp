@@ -73,7 +73,7 @@ void Viewer::carry_out(panel::Request request) {
     case panel::Request::list:
       return list({});
     case panel::Request::fit:
-      return fit();
+      return fit(ball_of_bodies());
     case panel::Request::screenshot:
       return save_screenshot();
     case panel::Request::save:
