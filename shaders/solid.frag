@@ -13,6 +13,24 @@ uniform vec3 eye;
 uniform vec3 key_direction;
 uniform vec3 tint;
 uniform float metal;  // 1: steel, 0: enamel
+#ifdef SHADED
+uniform mat4 shadow_matrix;
+uniform sampler2DShadow shadow_map;
+
+// Visible fraction of the wide key light. The map has what is round the body; beyond it there are no shadows.
+float key_visibility() {
+  vec3 at = (shadow_matrix * vec4(v_position, 1.0)).xyz * 0.5 + 0.5;
+  at.z = min(at.z - 0.012, 1.0);
+  float sum = 0.0;
+  for (int i = 0; i < 24; ++i) {  // Vogel's disc
+    float angle = 2.39996 * float(i), r = 0.030 * sqrt((float(i) + 0.5) / 24.0);
+    vec3 tap = at + vec3(r * cos(angle), r * sin(angle), 0.0);
+    bool is_inside = all(equal(tap.xy, clamp(tap.xy, 0.0, 1.0)));
+    sum += is_inside ? texture(shadow_map, tap) : 1.0;
+  }
+  return sum / 24.0;
+}
+#endif
 
 out vec4 colour;
 
@@ -22,7 +40,11 @@ void main() {
   vec3 room = mix(vec3(0.10, 0.13, 0.14), 1.1 * sky_colour, horizon);
   float lamp = smoothstep(0.86, 0.97, dot(r, key_direction));
   float fresnel = 0.04 + 0.96 * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 5.0);
-  vec3 diffuse = tint * (key_colour * (0.15 + 0.85 * clamp(dot(n, key_direction), 0.0, 1.0)) + 0.6 * sky_colour);
+  float lit = 0.15 + 0.85 * clamp(dot(n, key_direction), 0.0, 1.0);
+#ifdef SHADED
+  lit *= key_visibility();
+#endif
+  vec3 diffuse = tint * (key_colour * lit + 0.6 * sky_colour);
   vec3 mirror = room + 2.2 * lamp * key_colour;
   colour = vec4(to_screen(mix(diffuse + fresnel * mirror, tint * mirror, metal), gl_FragCoord.xy), v_cover);
 }

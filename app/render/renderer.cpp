@@ -211,9 +211,9 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
     if (options.constrained) draw_constrained(shot);
     glDisable(GL_CLIP_DISTANCE0);
     if (options.section) draw_cap(shot, shows_field);
-    tool_.draw(shot);
+    tool_.draw(shot, shadow_map_);
   }
-  background_.draw(shot, ground);
+  if (ground.is_lowest) background_.draw(shot, ground);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);

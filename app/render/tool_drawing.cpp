@@ -16,6 +16,7 @@ constexpr float along_sight = 0.8f;   // cosine
 constexpr float half_tension = 0.5f;  // N at which the line of a pull has its middle colour
 constexpr float shade_width = 0.035f;  // body radii
 constexpr float slack = 0.03f;        // body radii: tissue that is nearer to the hand follows it
+constexpr float table_thickness = 0.06f, table_radius = 1.7f;  // body radii
 
 Vec3f tension_tint(float force) {
   const float strain = force / (force + half_tension);
@@ -79,8 +80,16 @@ void ToolDrawing::place_table(const Table& table, const Frame& frame, const View
   const Vec3f normal = table.normal.cast<float>();
   middle -= normal.dot(middle - table.point.cast<float>()) * normal;
   if (!middle.allFinite()) return;
-  parts_.push_back({&disc_, place_along(middle, normal, across(normal), 0.06f * shot.radius, 1.7f * shot.radius),
-                    Vec3f(0.055f, 0.075f, 0.08f), 0, false});
+  parts_.push_back(
+      {&disc_, place_along(middle, normal, across(normal), table_thickness * shot.radius, table_radius * shot.radius),
+       Vec3f(0.055f, 0.075f, 0.08f), 0, false, false, true});
+}
+
+float ToolDrawing::lowest(const Table& table, const BoundingSphere& rest) {
+  const Vec3f normal = table.normal.cast<float>();
+  const Vec3f middle = rest.centre - normal.dot(rest.centre - table.point.cast<float>()) * normal;
+  const float reach = table_radius * normal.cross(Vec3f::UnitY()).norm();
+  return middle.y() - rest.radius * (reach + table_thickness * std::abs(normal.y()));
 }
 
 void ToolDrawing::place_suture(const SutureState& suture, const ViewContext& shot) {
@@ -238,10 +247,17 @@ void ToolDrawing::draw_hidden(const ViewContext& shot) const {
   glDisable(GL_BLEND);
 }
 
-void ToolDrawing::draw(const ViewContext& shot) const {
+void ToolDrawing::draw(const ViewContext& shot, const ShadowMap& shadows) const {
   draw_hidden(shot);
   for (const Part& part : parts_) {
-    prepare(solid_, shot, part);
+    const Program& program = part.is_shaded ? shaded_ : solid_;
+    prepare(program, shot, part);
+    if (part.is_shaded) {
+      program.set("shadow_matrix", shadows.matrix());
+      program.set("shadow_map", 0);
+      glActiveTexture(GL_TEXTURE0);
+      glBindTexture(GL_TEXTURE_2D, shadows.texture());
+    }
     part.mesh->draw();
   }
 }

@@ -4,6 +4,7 @@
 // through the tissue.
 #include <app/render/camera.hpp>
 #include <app/render/grasp_pose.hpp>
+#include <app/render/shadows.hpp>
 #include <app/render/solid_mesh.hpp>
 #include <app/render/stroke_drawing.hpp>
 #include <heml/session/frame.hpp>
@@ -39,7 +40,9 @@ class ToolDrawing {
   const Shade& shade() const { return shade_; }
   void cast(const Program& program) const;  ///< draws the shadow casters; sets `model`
   std::vector<Eigen::AlignedBox3f> boxes() const;  ///< round every part, m
-  void draw(const ViewContext& shot) const;
+  /// m, least y of a table as it is drawn under a body at rest.
+  static float lowest(const Table& table, const BoundingSphere& rest);
+  void draw(const ViewContext& shot, const ShadowMap& shadows) const;
   void draw_outline(const ViewContext& shot);  ///< strips that fade outwards, see outline.hpp
 
  private:
@@ -51,6 +54,7 @@ class ToolDrawing {
     float metal = 0;  // 1: steel, 0: enamel
     bool casts = true;
     bool shows_through = false;  // its part inside the tissue is drawn too, fainter
+    bool is_shaded = false;      // the shadow of tissue and instruments falls on it
   };
   void place_grasp(const GraspState& tool, const HeldPatch& patch, const ViewContext& shot);
   void place_forceps(const HeldPatch& patch, bool open, const ViewContext& shot);
@@ -66,6 +70,7 @@ class ToolDrawing {
   void prepare(const Program& program, const ViewContext& shot, const Part& part) const;
 
   Program solid_{"solid.vert", "solid.frag"};
+  Program shaded_{"solid.vert", "solid.frag", {"SHADED"}};
   Program strip_{"solid.vert", "solid.frag", {"OUTLINE"}};
   Program hidden_{"solid.vert", "solid.frag", {"HIDDEN"}};
   SolidMesh jaw_{forceps_jaw()}, rod_{rod()}, needle_{needle()}, ball_{ball()}, disc_{disc()};
