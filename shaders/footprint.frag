@@ -2,4 +2,7 @@
 in float v_height;
 out vec4 colour;
 
-void main() { colour = vec4(1.0, exp(-5.0 * max(v_height, 0.0)), 0.0, 1.0); }
+void main() {
+  if (v_height < 0.0) discard;  // below the ground
+  colour = vec4(1.0, exp(-5.0 * v_height), 0.0, 1.0);
+}

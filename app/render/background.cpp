@@ -30,14 +30,12 @@ void Background::prepare(const ViewContext& shot, const Ground& ground, const Pl
                         ground.shown,         ground.centre, ground.radius};
   if (last_ == scenery) {
     if (!is_kept_) keep(shot, ground, place);
-    if (is_used(ground)) put_back(shot, place);
+    put_back(shot, place);
     return;
   }
   last_ = scenery;
   is_kept_ = false;
 }
-
-bool Background::is_used(const Ground& ground) const { return is_kept_ && (!ground.shown || ground.is_lowest); }
 
 /// Draws into the picture and copies from there: elsewhere some pixels would be rounded in another way.
 void Background::keep(const ViewContext& shot, const Ground& ground, const Place& place) {
@@ -74,7 +72,7 @@ void Background::put_back(const ViewContext& shot, const Place& place) const {
 }
 
 void Background::draw(const ViewContext& shot, const Ground& ground) const {
-  if (!is_used(ground)) return draw_all(shot, ground);
+  if (!is_kept_) return draw_all(shot, ground);
   if (ground.shown) draw_ground(shot, ground, &ground.shadowed);
 }
 

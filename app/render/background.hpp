@@ -6,7 +6,8 @@
 //   body and tools, then
 //   the squares of the drape that shadows fall on,
 //
-// with the same bits as if drape and backdrop were drawn.
+// with the same bits as if drape and backdrop were drawn. Where something reaches below the drape, the drape comes
+// before body and tools, which it would hide.
 #include <app/render/gl_objects.hpp>
 #include <app/render/tool_drawing.hpp>
 #include <optional>
@@ -22,7 +23,7 @@ class Background {
     float radius = 1;              ///< m, of the body at rest
     GLuint footprint = 0;          ///< texture of shadows, shadows.hpp
     Eigen::AlignedBox2f shadowed;  ///< where that is not 0, in radii from the centre
-    bool is_lowest = true;         ///< nothing that is drawn reaches below it, and could be hidden by it
+    bool is_lowest = true;         ///< nothing that is drawn reaches below it
   };
   /// The picture's lower left corner in the bound framebuffer, pixels.
   struct Place {
@@ -47,7 +48,6 @@ class Background {
     bool operator==(const Scenery&) const = default;
   };
   void keep(const ViewContext& shot, const Ground& ground, const Place& place);
-  bool is_used(const Ground& ground) const;
   void put_back(const ViewContext& shot, const Place& place) const;
   void draw_all(const ViewContext& shot, const Ground& ground) const;
   void draw_ground(const ViewContext& shot, const Ground& ground, const Eigen::AlignedBox2f* within) const;

@@ -4,6 +4,7 @@
 #include <app/render/background.hpp>
 #include <app/render/body_mesh.hpp>
 #include <app/render/fine_skin.hpp>
+#include <app/render/ground_place.hpp>
 #include <app/render/resources.hpp>
 #include <app/render/section_cap.hpp>
 #include <app/render/shadows.hpp>
@@ -18,7 +19,6 @@ namespace {
 
 const Vec3f key_direction = Vec3f(-0.50f, 0.78f, 0.38f).normalized();  // towards the lamp
 constexpr float hatch_period = 11;                                     // pixels in a picture 720 high
-constexpr float ground_gap = 0.05f;                                    // under the body, in body radii
 
 // Uploads a colour map as a texture one pixel high. tissue.frag squares it: bytes are too coarse for dark linear
 // colours.
@@ -99,7 +99,7 @@ class Renderer::Impl {
   ShadowMap shadow_map_;
   Footprint footprint_;
   ToolDrawing tool_;
-  Vec3f ground_centre_ = Vec3f::Zero();
+  GroundPlace ground_place_;
   bool has_shadows_ = false;  // of surface_mesh_, in both maps
 };
 
@@ -118,6 +118,7 @@ void Renderer::Impl::update_surface_mesh(const Frame& frame) {
   has_shadows_ = false;
   body_.reset();
   if (!surface_mesh_) return;
+  ground_place_ = GroundPlace(*surface_mesh_);
   const auto& whole = surface_mesh_->whole ? surface_mesh_->whole : surface_mesh_;
   if (whole != whole_) whole_look_ = looks_.of(whole);
   whole_ = whole;
@@ -199,6 +200,10 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
   const Background::Ground ground = this->ground(shot, frame, options);
   background_.prepare(shot, ground, place);
   glClear(GL_DEPTH_BUFFER_BIT);
+  if (!ground.is_lowest) {  // what is below the ground is drawn over it: nothing hides the tissue
+    background_.draw(shot, ground);
+    glClear(GL_DEPTH_BUFFER_BIT);
+  }
   const bool shows_field = frame.field != Field::none && body_ && frame.values.size() == body_->node_count();
   if (shows_field) upload_map(map_, frame.field);
   if (body_) {
@@ -292,14 +297,13 @@ const Program& Renderer::Impl::tissue_program(unsigned features) {
 }
 
 void Renderer::Impl::draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options) {
-  const BoundingSphere ball = bounding_sphere(frame.positions);
   const BoundingSphere& rest = body_->rest();
-  // The ground moves down with a body that sinks below its rest position.
-  const float ground = std::min(rest.lowest - ground_gap * rest.radius, ball.lowest - 0.02f * rest.radius);
-  ground_centre_ = Vec3f(rest.centre.x(), ground, rest.centre.z());
   const auto casters = [&](const Program& program) { draw_casters(program); };
-  shadow_map_.draw(ball, key_direction, casters);
-  if (options.ground) footprint_.draw(rest.centre, rest.radius, ground, shot.key_direction, casters);
+  shadow_map_.draw(bounding_sphere(frame.positions), key_direction, casters);
+  if (options.ground) {
+    const float ground = ground_place_.centre(frame, rest).y();
+    footprint_.draw(rest.centre, rest.radius, ground, shot.key_direction, casters);
+  }
   has_shadows_ = options.ground;
 }
 
@@ -369,17 +373,18 @@ void Renderer::Impl::draw_constrained(const ViewContext& shot) const {
 Background::Ground Renderer::Impl::ground(const ViewContext& shot, const Frame& frame,
                                           const DrawOptions& options) const {
   Background::Ground ground;
-  ground.centre = ground_centre_;
+  if (body_) ground.centre = ground_place_.centre(frame, body_->rest());
   ground.radius = shot.radius;
   ground.footprint = footprint_.texture();
   ground.shown = body_ && options.ground && shot.camera.eye().y() > ground.centre.y();
   if (!ground.shown) return ground;
   std::vector<Eigen::AlignedBox3f> boxes = tool_.boxes();
-  ground.is_lowest = !shows_skin_;  // a skin may be larger than the body
-  for (const auto& box : boxes) ground.is_lowest = ground.is_lowest && box.min().y() > ground.centre.y();
   Eigen::AlignedBox3f& body = boxes.emplace_back();
   for (const Vec3f& x : frame.positions)
     if (x.allFinite()) body.extend(x);
+  ground.is_lowest = !shows_skin_;  // a skin may be larger than the body
+  for (const auto& box : boxes)
+    ground.is_lowest = ground.is_lowest && (box.isEmpty() || box.min().y() > ground.centre.y());
   ground.shadowed = Footprint::reach(boxes, ground.centre, ground.radius, ground.centre.y(), shot.key_direction);
   return ground;
 }

@@ -418,16 +418,65 @@ TEST_CASE("half resolution gives nearly the same image") {
   CHECK(difference < 8);
 }
 
-TEST_CASE("the ground moves down with a sinking body") {
+TEST_CASE("the ground stays where it is when the body falls, and hides nothing of it") {
   Stage stage;
-  const Image before = stage.draw();
-  for (Vec3f& node : stage.frame.positions) node.y() -= 0.04f;
-  stage.camera.pan(0, -0.4f);
-  const Image after = stage.draw();
-  CHECK(rms_difference(before, after) > 2);
-  const Vec2f bottom = stage.camera.pixel(Vec3f(0, -0.04f, 0.049f), size);
-  const std::uint8_t* pixel = after.at(static_cast<int>(bottom.x()), static_cast<int>(bottom.y()));
-  CHECK(pixel[0] > pixel[2]);  // the body, not the drape
+  stage.camera.fit(Vec3f(0, -0.1f, 0), 0.25f, size);
+  const Vec3f beside(0.3f, -0.055f, 0), body(0, 0, 0);
+  const auto pixel = [&](const Image& image, const Vec3f& point) {
+    const Vec2f at = stage.camera.pixel(point, size);
+    const std::uint8_t* colour = image.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    return std::array{colour[0], colour[1], colour[2]};
+  };
+  const auto is_tissue = [](const std::array<std::uint8_t, 3>& colour) { return colour[0] > 1.5 * colour[2]; };
+  const Image at_rest = stage.draw();
+  REQUIRE(is_tissue(pixel(at_rest, body)));
+  REQUIRE_FALSE(is_tissue(pixel(at_rest, beside)));
+  for (const float fall : {0.02f, 0.07f, 0.2f}) {
+    CAPTURE(fall);
+    for (std::size_t k = 0; k < stage.frame.positions.size(); ++k)
+      stage.frame.positions[k] = stage.surface_mesh.rest[k] - fall * Vec3f::UnitY();
+    const Image fallen = stage.draw();
+    CHECK(pixel(fallen, beside) == pixel(at_rest, beside));
+    CHECK(is_tissue(pixel(fallen, body - fall * Vec3f::UnitY())));
+  }
+}
+
+TEST_CASE("the ground is below a table, which it would hide") {
+  Stage stage;
+  stage.camera.fit(Vec3f(0, -0.1f, 0), 0.25f, size);
+  TableState table;
+  table.table.point = Vec3(0, -0.15, 0);
+  const auto change = [&] {
+    stage.frame.tools.clear();
+    const Image bare = stage.draw();
+    stage.frame.tools.push_back(table);
+    const Image with_table = stage.draw();
+    const Vec2f at = stage.camera.pixel(Vec3f(0, -0.15f, 0.07f), size);
+    const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
+    return !same(bare, with_table, x, y);
+  };
+  CHECK(change());
+}
+
+TEST_CASE("tissue casts a shadow on a table") {
+  Stage stage;
+  stage.options.ground = false;
+  TableState table;
+  table.table.point = Vec3(0, -0.06, 0);
+  stage.frame.tools.push_back(table);
+  stage.camera.look(0, 1.2f);
+  const auto brightness = [&](float height, const Vec3f& point) {
+    for (std::size_t k = 0; k < stage.frame.positions.size(); ++k)
+      stage.frame.positions[k] = stage.surface_mesh.rest[k] + height * Vec3f::UnitY();
+    const Image image = stage.draw();
+    const Vec2f at = stage.camera.pixel(point, size);
+    const auto colour = image.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    return static_cast<int>(colour[0]) + static_cast<int>(colour[1]) + static_cast<int>(colour[2]);
+  };
+  // The lamp shines from (-0.50, 0.78, 0.38): the middle of the shadow is at (0.038, -0.06, -0.029).
+  const Vec3f shaded(0.065f, -0.06f, -0.035f), lit(-0.06f, -0.06f, 0.04f);
+  CHECK(brightness(0, shaded) < 0.7 * brightness(1, shaded));
+  CHECK(brightness(0, lit) == brightness(1, lit));
 }
 
 TEST_CASE("refuses a frame of another body") {
