@@ -138,4 +138,14 @@ TEST_CASE("several bodies share the free area with equal size, each centred in i
   }
 }
 
+TEST_CASE("a body that has moved is fitted where it is") {
+  std::vector<Vec3f> moved = surface_mesh.rest;
+  for (Vec3f& place : moved) place += Vec3f(0.5f, -2, 0);
+  panel::CameraController at_rest, controller;
+  at_rest.fit({}, surface_mesh, {800, 600}, {});
+  controller.fit({}, render::bounding_sphere(moved), {800, 600}, {});
+  for (std::size_t k = 0; k < moved.size(); ++k)
+    CHECK((controller.pixel(moved[k]) - at_rest.pixel(surface_mesh.rest[k])).norm() < 0.1f);
+}
+
 }  // namespace heml::camera_controller_test
