@@ -78,7 +78,7 @@ inline constexpr std::array<FieldInfo, field_count> field_list{{
      "of the Cauchy stress", nullptr, [](const ElementState<double>& s) { return s.von_mises; }},
     {Field::volume_ratio, "J", "Volume ratio J", "Volume ratio J", "", FieldScale::about_one,
      "volume over that at rest", nullptr, [](const ElementState<double>& s) { return s.J; }},
-    {Field::error, "error", "Mesh error", "Discretisation error relative to the mean", "%", FieldScale::from_zero,
+    {Field::error, "error", "Mesh error", "Mesh error relative to the mean", "%", FieldScale::from_zero,
      "estimated discretisation error, in the energy norm, relative to the body's mean"},
     {Field::displacement_x, "displacement_x", "Displacement, x", "Displacement along x", "m", FieldScale::about_zero,
      "along x", fields::displacement<0>},
