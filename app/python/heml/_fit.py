@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 import heml
 from heml._equilibrium import Equilibrium, rest_world, unsupported, with_selected_nodes
@@ -232,7 +232,7 @@ def _result(misfit: Misfit, search: _Search, found: Any, sigma: Array | None) ->
     residuals = misfit.residuals(values)
     freedom = residuals.size - len(values)
     variance = 1.0 if sigma is not None else float(np.sum(residuals**2)) / max(freedom, 1)
-    covariance = _covariance(found.jac, misfit.paths) * variance * np.outer(slopes, slopes)
+    covariance = _covariance(found.jac, misfit.paths, slopes, variance)
     errors = np.sqrt(np.diag(covariance))
     quantile = special.ndtri(0.975) if sigma is not None else special.stdtrit(max(freedom, 1), 0.975)
     return FitResult(
@@ -256,15 +256,16 @@ def _result(misfit: Misfit, search: _Search, found: Any, sigma: Array | None) ->
     )
 
 
-def _covariance(jacobian: Array, paths: list[str]) -> Array:
-    """Inverse of J^T J (P, P); inf with a warning where J is rank deficient."""
+def _covariance(jacobian: Array, paths: list[str], slopes: Array, variance: float) -> Array:
+    """Of the parameters, (P, P): variance times the inverse of J^T J, J by coordinates; inf with a warning where J is rank
+    deficient."""
     scale = np.linalg.norm(jacobian, axis=0)
     singular = np.linalg.svd(jacobian / np.where(scale > 0, scale, 1), compute_uv=False)
     if scale.min() == 0 or singular[-1] < 1e-6 * singular[0]:
         warnings.warn(f"the observations do not determine {', '.join(paths)} separately", stacklevel=4)
         return np.full((len(paths), len(paths)), np.inf)
     scaled = jacobian / scale
-    return np.linalg.inv(scaled.T @ scaled) / np.outer(scale, scale)
+    return variance * np.linalg.inv(scaled.T @ scaled) * np.outer(slopes / scale, slopes / scale)
 
 
 def _as_dict(scene: Any) -> dict[str, Any]:
@@ -272,7 +273,13 @@ def _as_dict(scene: Any) -> dict[str, Any]:
 
 
 def _named(parameters: Union[Mapping[str, Any], Sequence[str]]) -> dict[str, Any]:
-    named = dict(parameters) if isinstance(parameters, Mapping) else {path: None for path in parameters}
+    if isinstance(parameters, str):
+        raise heml.InputError(f"parameters: a list of paths or a dict; write ['{parameters}']")
+    paths = list(parameters)
+    for path in paths:
+        if paths.count(path) > 1:
+            raise heml.InputError(f"parameter {path}: is given twice; give it once")
+    named = dict(parameters) if isinstance(parameters, Mapping) else {path: None for path in paths}
     if not named:
         raise heml.InputError("parameters: none given; write for example ['materials[0].young']")
     return named
@@ -287,6 +294,8 @@ def _bounds(scene: dict[str, Any], path: str, value: Any) -> Bounds:
             raise heml.InputError(f"parameter {path}: initial {initial:g} is not between {lower:g} and {upper:g}")
         return initial, lower, upper
     initial = present if value is None else float(value)
+    if not np.isfinite(initial):
+        raise heml.InputError(f"parameter {path}: the initial value is {initial:g}; give a finite number")
     if path.endswith(".poisson"):
         return initial, -1.0, 0.5
     positive = initial > 0 and (path.startswith("materials[") or path == "mesh.scale")
@@ -298,24 +307,37 @@ def _observed(observations: Mapping[str, Any]) -> tuple[NDArray[np.intp], Array,
     if unknown or not {"nodes", "positions"} <= set(observations):
         raise heml.InputError(f"observations: keys are nodes, positions and sigma, not {sorted(observations)}")
     nodes = np.asarray(observations["nodes"])
-    measured = np.asarray(observations["positions"], dtype=float)
+    measured = _numbers(observations, "positions")
     if nodes.ndim != 1 or nodes.size == 0 or nodes.dtype.kind not in "iu" or nodes.min() < 0:
         raise heml.InputError("observations.nodes: a list of whole numbers >= 0")
-    if measured.shape != (len(nodes), 3) or not np.isfinite(measured).all():
-        raise heml.InputError(f"observations.positions: finite, shape ({len(nodes)}, 3), not {measured.shape}")
-    return nodes.astype(np.intp), measured, _sigma(observations.get("sigma"), len(nodes))
+    if measured.shape != (len(nodes), 3):
+        raise heml.InputError(f"observations.positions: shape ({len(nodes)}, 3), not {measured.shape}")
+    for row in np.flatnonzero(~np.isfinite(measured).all(axis=1)):
+        raise heml.InputError(
+            f"observations.positions[{row}]: of node {nodes[row]} is {measured[row].tolist()}; give finite numbers, and "
+            "leave out nodes that were not measured"
+        )
+    return nodes.astype(np.intp), measured, _sigma(observations, len(nodes))
 
 
-def _sigma(given: ArrayLike | None, count: int) -> Array | None:
-    if given is None:
+def _numbers(observations: Mapping[str, Any], key: str) -> Array:
+    try:
+        return np.asarray(observations[key], dtype=float)
+    except (TypeError, ValueError):
+        raise heml.InputError(f"observations.{key}: an array of numbers") from None
+
+
+def _sigma(observations: Mapping[str, Any], count: int) -> Array | None:
+    if observations.get("sigma") is None:
         return None
-    sigma = np.asarray(given, dtype=float)
+    sigma = _numbers(observations, "sigma")
     if sigma.ndim == 1:
         sigma = sigma[:, None]
     try:
         sigma = np.broadcast_to(sigma, (count, 3))
     except ValueError:
         raise heml.InputError(f"observations.sigma: a number, ({count},) or ({count}, 3)") from None
-    if not (sigma > 0).all():
-        raise heml.InputError("observations.sigma: greater than 0")
+    if not ((sigma > 0) & np.isfinite(sigma)).all():
+        wrong = sigma[~((sigma > 0) & np.isfinite(sigma))][0]
+        raise heml.InputError(f"observations.sigma: finite and greater than 0, not {wrong:g}")
     return np.array(sigma)

@@ -9,6 +9,11 @@ from typing import Any
 import heml
 
 _token = re.compile(r"([A-Za-z_]\w*)|\[(\d+)\]")
+# Numbers that an equilibrium may depend on: not selections, times and what says how to solve.
+_fitted = re.compile(
+    r"materials\[\d+\]\.(?!region$)[A-Za-z_].*|loads\[\d+\]\.((force|traction)\[\d+\]|pressure)|gravity\[\d+\]|"
+    r"boundary\[\d+\]\.(translate\[\d+\]|rotate\.((axis|origin)\[\d+\]|degrees))|mesh\.scale"
+)
 _defaults: dict[str, float] = {"mesh.scale": 1.0}
 
 
@@ -38,7 +43,7 @@ def _walk(scene: Any, tokens: list[str | int], path: str) -> Any:
 
 
 def get_number(scene: dict[str, Any], path: str) -> float:
-    """The number at `path`. Raises InputError where there is none."""
+    """The number at `path`. Raises InputError where there is none, or none that an equilibrium depends on."""
     tokens = _tokens(path)
     if path in _defaults:
         scene = dict(scene.get("mesh", {}))
@@ -46,6 +51,11 @@ def get_number(scene: dict[str, Any], path: str) -> float:
     value = _walk(scene, tokens, path)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise heml.InputError(f"{path}: {value!r} is no number; a parameter is one number of the scene")
+    if not _fitted.fullmatch(path):
+        raise heml.InputError(
+            f"{path}: cannot be fitted; give a path to one number of materials, loads, gravity or boundary, or mesh.scale, "
+            "as materials[0].young or gravity[1]"
+        )
     return float(value)
 
 

@@ -131,6 +131,14 @@ def test_parameters_that_cannot_be_told_apart():
     assert result.standard_errors["materials[0].young"] == np.inf
 
 
+def test_exact_points_that_do_not_depend_on_a_parameter():
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = heml.fit(beam(), {"nodes": [0], "positions": [[0, 0, 0]]}, ["materials[0].young"])  # a node that is fixed
+    assert ["do not determine" in str(warning.message) for warning in caught] == [True]
+    assert result.standard_errors["materials[0].young"] == np.inf
+
+
 def test_bounds_hold():
     scene = beam()
     result = heml.fit(scene, measured(scene, 1e-5), {"materials[0].young": (7e4, 6e4, 9e4)})
@@ -144,7 +152,15 @@ def test_bounds_hold():
         ({"nodes": [0], "positions": [[0, 0]]}, ["gravity[1]"], r"shape \(1, 3\)"),
         ({"nodes": [0.5], "positions": [[0, 0, 0]]}, ["gravity[1]"], "whole numbers"),
         ({"nodes": [999], "positions": [[0, 0, 0]]}, ["gravity[1]"], "the mesh has 81 nodes"),
-        ({"nodes": [0], "positions": [[0, 0, np.nan]]}, ["gravity[1]"], "finite"),
+        ({"nodes": [5, 0], "positions": [[0, 0, 0], [0, 0, np.nan]]}, ["gravity[1]"], r"positions\[1\]: of node 0 .*finite"),
+        ({"nodes": [0], "positions": [["a", 0, 0]]}, ["gravity[1]"], "positions: an array of numbers"),
+        ({"nodes": [0], "positions": [[0, 0, 0]], "sigma": np.nan}, ["gravity[1]"], "greater than 0, not nan"),
+        ({"nodes": [0], "positions": [[0, 0, 0]]}, ["gravity[1]", "gravity[1]"], r"gravity\[1\]: is given twice"),
+        ({"nodes": [0], "positions": [[0, 0, 0]]}, "gravity[1]", "a list of paths"),
+        ({"nodes": [0], "positions": [[0, 0, 0]]}, {"gravity[1]": np.nan}, "the initial value is nan"),
+        ({"nodes": [0], "positions": [[0, 0, 0]]}, ["schema_version"], "schema_version: cannot be fitted"),
+        ({"nodes": [0], "positions": [[0, 0, 0]]}, ["loads[1].nodes[0]"], "cannot be fitted"),
+        ({"nodes": [0], "positions": [[0, 0, 0]]}, ["materials[0]young"], "cannot be fitted"),
         ({"nodes": [0], "positions": [[0, 0, 0]], "sigma": 0}, ["gravity[1]"], "greater than 0"),
         ({"nodes": [0], "positions": [[0, 0, 0]]}, ["materials[1].young"], "has no 1"),
         ({"nodes": [0], "positions": [[0, 0, 0]]}, ["materials[0].law"], "is no number"),
