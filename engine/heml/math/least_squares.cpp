@@ -10,6 +10,8 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 constexpr double round_off_column = 1e-9;  // norm, relative to the largest
+constexpr double min_scale = 1e-6;         // of a variable, relative to the largest
+constexpr double min_damping = 1e-12;
 
 std::optional<Matrix> jacobian(const LeastSquaresProblem& problem, const Vector& u, const Vector& r) {
   Matrix J(r.size(), u.size());
@@ -28,28 +30,61 @@ std::optional<Matrix> jacobian(const LeastSquaresProblem& problem, const Vector&
   return J;
 }
 
-/// Takes one step downhill. False where none is left within round-off.
-bool step_downhill(const LeastSquaresProblem& problem, const LeastSquaresOptions& options, double& damping,
-                   LeastSquaresFit& at) {
-  const Matrix A = at.J.transpose() * at.J;
-  const Vector g = at.J.transpose() * at.r, diagonal = A.diagonal().cwiseMax(1e-12 * A.diagonal().maxCoeff());
-  while (damping < 1e12) {
-    Matrix damped = A;
-    damped.diagonal() += damping * diagonal;
-    const Vector step = damped.ldlt().solve(-g), next = at.u + step;
-    const auto r = step.allFinite() && step.cwiseAbs().maxCoeff() < 5 ? problem.residuals(next) : std::nullopt;
-    if (!r || !(r->squaredNorm() < at.r.squaredNorm())) {
-      damping *= 4;
-      continue;
-    }
-    at.converged = at.r.squaredNorm() - r->squaredNorm() <= options.change * at.r.squaredNorm() &&
-                   step.norm() <= options.step * (1 + at.u.norm());
-    at.u = next;
-    at.r = *r;
-    damping = std::max(damping / 9, 1e-12);
-    return true;
+/// Where r(u + s) is taken to be r + J s: ‖D s‖ ≤ radius and |s_i| ≤ reach. D has the largest norm so far of each
+/// column of J, so that a variable does not run away where it has lost its influence.
+struct TrustRegion {
+  Vector scale;  ///< D
+  double radius = 0;
+  double reach = 2;  ///< of a logarithm: a factor of 7
+
+  void adopt(const Matrix& J) {
+    const Vector norms = J.colwise().norm().transpose();
+    const bool is_first = scale.size() == 0;
+    scale = is_first ? norms : Vector(scale.cwiseMax(norms));
+    if (is_first) radius = scale.norm();
   }
-  return false;
+
+  /// The step to the least ‖r + J s‖² there.
+  Vector step(const Matrix& J, const Vector& r) const {
+    const Matrix A = J.transpose() * J;
+    const Vector g = J.transpose() * r, diagonal = scale.cwiseMax(min_scale * scale.maxCoeff()).cwiseAbs2();
+    for (double damping = min_damping;; damping *= 2) {
+      Matrix damped = A;
+      damped.diagonal() += damping * diagonal;
+      const Vector s = damped.ldlt().solve(-g);
+      if (!(length(s) > radius) && !(s.cwiseAbs().maxCoeff() > reach)) return s;
+    }
+  }
+  double length(const Vector& s) const { return scale.cwiseProduct(s).norm(); }
+
+  /// gain: what |r|² has fallen by, over what the derivative told.
+  void adapt(double gain, const Vector& s) {
+    if (gain < 0.25) radius = length(s) / 4;
+    if (gain <= 0.75) return;
+    radius = std::max(radius, 2 * length(s));
+    reach = std::max(reach, 2 * s.cwiseAbs().maxCoeff());
+  }
+};
+
+/// Takes one step downhill. False where none is left.
+bool step_downhill(const LeastSquaresProblem& problem, const LeastSquaresOptions& options, TrustRegion& region,
+                   LeastSquaresFit& at) {
+  region.adopt(at.J);
+  while (true) {
+    const Vector step = region.step(at.J, at.r), next = at.u + step;
+    const bool is_short = !(step.norm() > options.step * (1 + at.u.norm()));
+    const auto r = problem.residuals(next);
+    const double before = at.r.squaredNorm(), fall = r ? before - r->squaredNorm() : -1;
+    const double told = before - (at.r + at.J * step).squaredNorm();
+    region.adapt(fall / told, step);
+    if (fall > 0) {
+      at.converged = is_short && fall <= options.change * before;
+      at.u = next;
+      at.r = *r;
+      return true;
+    }
+    if (is_short) return false;
+  }
 }
 
 }  // namespace
@@ -57,13 +92,13 @@ bool step_downhill(const LeastSquaresProblem& problem, const LeastSquaresOptions
 LeastSquaresFit minimise_squares(const LeastSquaresProblem& problem, const Vector& start,
                                  const LeastSquaresOptions& options) {
   LeastSquaresFit at{start, *problem.residuals(start), {}};
-  double damping = 1e-3;
+  TrustRegion region;
   for (; at.iterations < options.max_iterations && !at.converged; ++at.iterations) {
     if (options.progress) options.progress(static_cast<double>(at.iterations) / options.max_iterations);
     const auto J = jacobian(problem, at.u, at.r);
     if (!J) break;
     at.J = *J;
-    if (!step_downhill(problem, options, damping, at)) at.converged = true;
+    if (!step_downhill(problem, options, region, at)) at.converged = true;
   }
   return at;
 }

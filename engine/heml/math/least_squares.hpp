@@ -1,6 +1,7 @@
 #pragma once
-// Nonlinear least squares by the Levenberg-Marquardt method (D. W. Marquardt: An Algorithm for Least-Squares Estimation
-// of Nonlinear Parameters. J. SIAM 11 (2), 1963), and how well the data determine the variables.
+// Nonlinear least squares by the Levenberg-Marquardt method in a trust region (J. J. Moré: The Levenberg-Marquardt
+// Algorithm: Implementation and Theory. Numerical Analysis, Lecture Notes in Mathematics 630, Springer 1978), and how
+// well the data determine the variables.
 #include <Eigen/Core>
 #include <functional>
 #include <optional>

@@ -38,6 +38,38 @@ TEST_CASE("least squares: a curved valley is followed to its end, round where re
   CHECK((fit.u - VectorXd::Ones(2)).norm() < 1e-8);
 }
 
+TEST_CASE("least squares: two moduli are found from starts 100 times too small to 100 times too large") {
+  const double first = 1000, second = 300;
+  // Stretches of nine parts that both moduli resist, the second more from part to part.
+  const auto stretches = [](double a, double b) -> VectorXd {
+    return (a + b * VectorXd::LinSpaced(9, 0.5, 1.5).array()).pow(-1.0 / 3);
+  };
+  const VectorXd measured = stretches(first, second);
+  const auto misfit = [&](const VectorXd& u) -> std::optional<VectorXd> {
+    return VectorXd(stretches(std::exp(u[0]), std::exp(u[1])) - measured);
+  };
+  for (int i = -4; i <= 4; ++i)
+    for (int k = -4; k <= 4; ++k) {
+      CAPTURE(i);
+      CAPTURE(k);
+      const VectorXd start{{std::log(first * std::pow(10, 0.5 * i)), std::log(second * std::pow(10, 0.5 * k))}};
+      const LeastSquaresFit fit = minimise_squares({misfit}, start);
+      CHECK(fit.converged);
+      CHECK(fit.iterations < 40);
+      CHECK(fit.u[0] == doctest::Approx(std::log(first)).epsilon(1e-4));
+      CHECK(fit.u[1] == doctest::Approx(std::log(second)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("least squares: a variable that begins at 0 is found far away") {
+  const VectorXd x = VectorXd::LinSpaced(9, 0, 1);
+  const LeastSquaresFit fit = minimise_squares(
+      {[&](const VectorXd& u) { return ((u[0] - 4000) * x.array()).matrix().eval(); }}, VectorXd::Zero(1));
+  CHECK(fit.converged);
+  CHECK(fit.iterations < 40);
+  CHECK(fit.u[0] == doctest::Approx(4000));
+}
+
 TEST_CASE("least squares: variables that the data tell only together are undetermined, others are not") {
   const auto product = [](const VectorXd& u) -> std::optional<VectorXd> {
     return VectorXd{{u[0] + u[1] - 3, 2 * (u[0] + u[1]) - 6.1, u[2] - 1}};
