@@ -44,15 +44,19 @@ struct TrustRegion {
     if (is_first) radius = scale.norm();
   }
 
-  /// The step to the least ‖r + J s‖² there.
-  Vector step(const Matrix& J, const Vector& r) const {
+  struct Step {
+    Vector s;
+    bool is_limited;  ///< by the region
+  };
+  /// To the least ‖r + J s‖² there.
+  Step step(const Matrix& J, const Vector& r) const {
     const Matrix A = J.transpose() * J;
     const Vector g = J.transpose() * r, diagonal = scale.cwiseMax(min_scale * scale.maxCoeff()).cwiseAbs2();
     for (double damping = min_damping;; damping *= 2) {
       Matrix damped = A;
       damped.diagonal() += damping * diagonal;
       const Vector s = damped.ldlt().solve(-g);
-      if (!(length(s) > radius) && !(s.cwiseAbs().maxCoeff() > reach)) return s;
+      if (!(length(s) > radius) && !(s.cwiseAbs().maxCoeff() > reach)) return {s, damping > min_damping};
     }
   }
   double length(const Vector& s) const { return scale.cwiseProduct(s).norm(); }
@@ -66,24 +70,28 @@ struct TrustRegion {
   }
 };
 
-/// Takes one step downhill. False where none is left.
+/// Takes one step downhill. False where none is left: as at a least value, where r is defined round it.
 bool step_downhill(const LeastSquaresProblem& problem, const LeastSquaresOptions& options, TrustRegion& region,
                    LeastSquaresFit& at) {
   region.adopt(at.J);
   while (true) {
-    const Vector step = region.step(at.J, at.r), next = at.u + step;
+    const auto [step, is_limited] = region.step(at.J, at.r);
+    const Vector next = at.u + step;
     const bool is_short = !(step.norm() > options.step * (1 + at.u.norm()));
     const auto r = problem.residuals(next);
     const double before = at.r.squaredNorm(), fall = r ? before - r->squaredNorm() : -1;
     const double told = before - (at.r + at.J * step).squaredNorm();
     region.adapt(fall / told, step);
     if (fall > 0) {
-      at.converged = is_short && fall <= options.change * before;
+      at.converged = is_short && !is_limited && fall <= options.change * before;
       at.u = next;
       at.r = *r;
       return true;
     }
-    if (is_short) return false;
+    if (is_short) {
+      at.converged = r.has_value();
+      return false;
+    }
   }
 }
 
@@ -98,7 +106,7 @@ LeastSquaresFit minimise_squares(const LeastSquaresProblem& problem, const Vecto
     const auto J = jacobian(problem, at.u, at.r);
     if (!J) break;
     at.J = *J;
-    if (!step_downhill(problem, options, region, at)) at.converged = true;
+    if (!step_downhill(problem, options, region, at)) break;
   }
   return at;
 }

@@ -81,6 +81,29 @@ TEST_CASE("scene fit: two numbers are found again, with intervals that hold them
   CHECK(again.numbers[0].value == doctest::Approx(noisy.numbers[0].value).epsilon(1e-3));
 }
 
+TEST_CASE("scene fit: moduli of a law are found from starts far off, to either side") {
+  const auto bar = [](double K1, double kappa) {
+    return parse_scene(fmt::format(R"({{
+      "schema_version": 1, "mesh": {{"box": {{"size": [0.1, 0.02, 0.02], "cells": [5, 1, 1]}}}},
+      "materials": [{{"law": "neo_hookean_iso", "K1": {}, "kappa": {}}}],
+      "boundary": [{{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": true}}],
+      "loads": [{{"box": [[0.0999, -1, -1], [1, 1, 1]], "traction": [200, -20, 0]}}],
+      "solver": {{"threads": 1}}
+    }})",
+                                   K1, kappa),
+                       "bar.json");
+  };
+  const MeasuredPlaces measured = places_in(bar(1000, 2e4), 1e-5);
+  for (const auto& [K1, kappa] : {std::pair(10.0, 6e3), {1e4, 200.0}, {1e5, 2e5}, {300.0, 2e6}}) {
+    CAPTURE(K1);
+    CAPTURE(kappa);
+    const SceneFit fit = fit_scene(bar(1000, 2e4), measured, {{"materials[0].K1", K1}, {"materials[0].kappa", kappa}});
+    CHECK(fit.converged);
+    CHECK(fit.numbers[0].value == doctest::Approx(1000).epsilon(0.01));
+    CHECK(fit.numbers[1].value == doctest::Approx(2e4).epsilon(0.05));
+  }
+}
+
 TEST_CASE("scene fit: what the places do not tell is said") {
   const Scene scene = block(5000, 0.3, 800);
   const MeasuredPlaces measured = places_in(scene, 1e-4);
