@@ -3,6 +3,7 @@
 #include <charconv>
 #include <heml/base/error.hpp>
 #include <heml/scenario/scene_numbers.hpp>
+#include <regex>
 #include <variant>
 #include <vector>
 
@@ -12,7 +13,9 @@ namespace {
 using PathToken = std::variant<std::string, std::size_t>;  // a key, or an index
 
 [[noreturn]] void refuse_path(const std::string& path, const std::string& problem) {
-  throw InputError(path, "", problem, "give a path to one number of the scene, as materials[0].young or gravity[1]");
+  throw InputError(path, "", problem,
+                   "give a path to one number of materials, loads, gravity or boundary, or mesh.scale, as "
+                   "materials[0].young or gravity[1]");
 }
 
 std::vector<PathToken> tokens_of(const std::string& path) {
@@ -54,6 +57,14 @@ Json* entry_at(Json& scene, const std::vector<PathToken>& tokens) {
   return at;
 }
 
+/// Whether an equilibrium may depend on the number: not on selections, times and what says how to solve.
+bool moves_equilibrium(const std::string& path) {
+  static const std::regex pattern(
+      R"(materials\[\d+\]\.(?!region$)\w.*|loads\[\d+\]\.((force|traction)\[\d+\]|pressure)|gravity\[\d+\]|)"
+      R"(boundary\[\d+\]\.(translate\[\d+\]|rotate\.((axis|origin)\[\d+\]|degrees))|mesh\.scale)");
+  return std::regex_match(path, pattern);
+}
+
 }  // namespace
 
 double number_at(const Json& scene, const std::string& path) {
@@ -61,6 +72,7 @@ double number_at(const Json& scene, const std::string& path) {
   if (!found && path == "mesh.scale") return 1;
   if (!found) refuse_path(path, "is not in the scene");
   if (!found->is_number()) refuse_path(path, fmt::format("is {}, no number", shown(*found)));
+  if (!moves_equilibrium(path)) refuse_path(path, "cannot be fitted");
   return found->get<double>();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Numbers of a scene by path: "materials[0].young", "loads[1].force[2]", "gravity[1]", "mesh.scale".
+// Numbers of a scene that its equilibrium depends on, by path: "materials[0].young", "loads[1].force[2]", "gravity[1]",
+// "mesh.scale".
 #include <heml/scenario/json_text.hpp>
 #include <string>
 

@@ -32,6 +32,26 @@ TEST_CASE("scene numbers: a path to nothing, to no number, or that is none, is r
   }
 }
 
+TEST_CASE("scene numbers: those that no equilibrium depends on are refused, as are paths of another spelling") {
+  Json json = scene();
+  json.merge_patch(Json::parse(R"({"solver": {"step": 1e-3}, "schema_version": 1,
+    "loads": [{"nodes": [1, 2], "pressure": 5, "over": 1}, {"box": [[0, 0, 0], [1, 1, 1]], "force": [1, 2, 3]}],
+    "boundary": [{"nodes": [3], "translate": [1, 2, 3], "rotate": {"axis": [1, 0, 0], "degrees": 9}, "over": 1}]})"));
+  json["materials"][0]["region"] = 3;
+  json["mesh"]["translate"] = {1, 2, 3};
+  for (const char* path : {"loads[0].pressure", "loads[1].force[2]", "boundary[0].translate[0]", "materials[0].mu",
+                           "boundary[0].rotate.axis[0]", "boundary[0].rotate.degrees"}) {
+    CAPTURE(path);
+    CHECK(number_at(json, path) != 0);
+  }
+  for (const char* path :
+       {"solver.step", "schema_version", "loads[0].nodes[1]", "loads[0].over", "loads[1].box[1][0]", "boundary[0].over",
+        "boundary[0].nodes[0]", "materials[0].region", "materials[0]mu", "mesh.translate[0]"}) {
+    CAPTURE(path);
+    CHECK_THROWS_WITH_AS(number_at(json, path), doctest::Contains("cannot be fitted"), InputError);
+  }
+}
+
 TEST_CASE("scene numbers: moduli get the names of the path, and are the same") {
   Json json = scene();
   name_moduli(json, "materials[0].young");
