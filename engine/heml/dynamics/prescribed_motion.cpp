@@ -4,8 +4,7 @@
 namespace heml {
 
 PrescribedMotion::At PrescribedMotion::operator()(const Vec3& X, double time) const {
-  const bool moving = ramp_time > 0 && time < ramp_time;
-  const double part = moving ? (time > 0 ? time / ramp_time : 0.0) : 1.0;
+  const double part = ramp(time);
   At at{X, Vec3::Zero(), Vec3::Zero()};
   Vec3 arm = X - origin;
   if (radians != 0) {
@@ -13,9 +12,9 @@ PrescribedMotion::At PrescribedMotion::operator()(const Vec3& X, double time) co
     at.x = arm + origin;
   }
   at.x += part * translate;
-  if (moving) {
-    const Vec3 rate = radians / ramp_time * axis;
-    at.v = rate.cross(arm) + translate / ramp_time;
+  if (ramp.is_growing(time)) {
+    const Vec3 rate = radians / ramp.duration * axis;
+    at.v = rate.cross(arm) + translate / ramp.duration;
     at.a = rate.cross(rate.cross(arm));
   }
   return at;

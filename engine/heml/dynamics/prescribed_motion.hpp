@@ -1,15 +1,15 @@
 #pragma once
 // Prescribed motion of constrained nodes (scene key `boundary`, app/docs/scene-format.md).
+#include <heml/math/ramp.hpp>
 #include <heml/math/types.hpp>
 
 namespace heml {
 
-/// x = rotate(X − origin) + origin + translate. Translation and angle grow linearly from t = 0 over ramp_time, then
-/// stay constant.
+/// x = rotate(X − origin) + origin + translate, translation and angle times the ramp.
 struct PrescribedMotion {
   Vec3 translate, axis, origin;  ///< m; axis unit
   double radians = 0;
-  double ramp_time = 0;  ///< s; 0: at once
+  Ramp ramp = {};
 
   struct At {
     Vec3 x, v, a;  ///< m, m/s, m/s²

@@ -334,8 +334,7 @@ double BodyObjective<Real>::find_value(const Vector& x) {
     for (std::size_t k = 0; k < load.nodes.size(); ++k) {
       const Vec3 moved = at(x, load.nodes[k]) - model_->mesh.nodes[static_cast<std::size_t>(load.nodes[k])];
       for (int i = 0; i < 3; ++i)
-        sum -= ramp(time_, load.ramp_time) * static_cast<double>(load.forces[3 * k + static_cast<std::size_t>(i)]) *
-               moved[i];
+        sum -= load.ramp(time_) * static_cast<double>(load.forces[3 * k + static_cast<std::size_t>(i)]) * moved[i];
     }
   if (!contact_.empty()) sum += contact_.value(x);
   for (const auto& grasp : grasps_) {

@@ -22,7 +22,7 @@ template <class Visit>
 void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit) const {
   if (x.size() == 0) return;
   for (const auto& load : model_->pressures) {
-    const double p = -static_cast<double>(load.pascal) * ramp(time_, load.ramp_time) / 6;
+    const double p = -static_cast<double>(load.pascal) * load.ramp(time_) / 6;
     for (const Triangle& face : load.faces) {
       const Vec3 a = place_of(x, face[0]), b = place_of(x, face[1]), c = place_of(x, face[2]);
       visit(face, p, std::array<Vec3, 3>{c - b, a - c, b - a});
@@ -36,7 +36,7 @@ template <class Visit>
 void BodyObjective<Real>::each_pressed_point(const Vector& x, const Visit& visit) const {
   if (x.size() == 0) return;
   for (const auto& load : model_->pressures) {
-    const double p = -static_cast<double>(load.pascal) * ramp(time_, load.ramp_time) / 2;
+    const double p = -static_cast<double>(load.pascal) * load.ramp(time_) / 2;
     for (const std::array<int, 6>& nodes : load.quadratic_faces)
       for (const FacePoint& point : face_points) {
         const auto [a, b, c] = virtual_face(point, [&](std::size_t k) { return place_of(x, nodes[k]); });

@@ -6,41 +6,12 @@
 #include <heml/materials/material.hpp>
 #include <heml/mesh/region_tag.hpp>
 #include <heml/world/command_executor.hpp>
+#include <heml/world/conditions.hpp>
 #include <heml/world/stable_step.hpp>
 
 namespace heml {
 namespace {
 bool finite(const Vec3& v) { return v.allFinite(); }
-
-/// nodes: of the body, how many.
-Status nodes_problem(const char* what, const std::vector<int>& chosen, std::size_t nodes) {
-  if (chosen.empty()) return fmt::format("{}: an entry names no node", what);
-  for (const int node : chosen)
-    if (node < 0 || static_cast<std::size_t>(node) >= nodes)
-      return fmt::format("{}: node {} does not exist; the body has nodes 0 to {}", what, node, nodes - 1);
-  return {};
-}
-
-Status ramp_problem(const char* what, double ramp_time) {
-  if (!(ramp_time >= 0) || !std::isfinite(ramp_time))
-    return fmt::format("{}: over must be 0 s or more, is {}", what, ramp_time);
-  return {};
-}
-
-Status boundary_problem(const Boundary& entry, std::size_t nodes) {
-  if (const Status status = nodes_problem("boundary", entry.nodes, nodes); !status.ok()) return status;
-  if (!entry.translate.allFinite() || !entry.axis.allFinite() || !entry.origin.allFinite() ||
-      !std::isfinite(entry.degrees))
-    return "boundary: translation and rotation must be finite";
-  if (!(entry.axis.norm() > 0)) return "boundary: the axis must not be zero";
-  return ramp_problem("boundary", entry.ramp_time);
-}
-
-Status load_problem(const Load& entry, std::size_t nodes) {
-  if (const Status status = nodes_problem("loads", entry.nodes, nodes); !status.ok()) return status;
-  if (!entry.vector.allFinite() || !std::isfinite(entry.pressure)) return "loads: a load is not finite";
-  return ramp_problem("loads", entry.ramp_time);
-}
 
 }  // namespace
 
@@ -223,27 +194,14 @@ Status CommandExecutor<Real>::execute(const AdoptPreconditioner&) {
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetBoundary& command) {
-  for (const Boundary& entry : command.entries)
-    if (const Status status = boundary_problem(entry, s_.node_count()); !status.ok()) return status;
-  WorldSetup& setup = s_.setup.write();
-  setup.boundary = command.entries;
-  for (Boundary& entry : setup.boundary) add_midedges_between(setup.mesh, setup.midedges, entry.nodes);
-  set_boundary(setup, s_.model.write());
-  ++s_.condition_changes;
+  if (Status status = replace_boundary(s_, command.entries); !status.ok()) return status;
   update_constraints(s_, recovery_);
   return {};
 }
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetLoads& command) {
-  for (const Load& entry : command.entries)
-    if (const Status status = load_problem(entry, s_.node_count()); !status.ok()) return status;
-  WorldSetup& setup = s_.setup.write();
-  setup.loads = command.entries;
-  for (Load& entry : setup.loads) add_midedges_between(setup.mesh, setup.midedges, entry.nodes);
-  set_loads(setup, s_.model.write());
-  ++s_.condition_changes;
-  s_.implicit.reset();
+  if (Status status = replace_loads(s_, command.entries); !status.ok()) return status;
   if (s_.recovering()) s_.install_surrogate();  // its solver may be of a model that snapshots alone hold now
   return {};
 }

@@ -63,6 +63,8 @@ std::vector<int> chosen_of(const std::vector<int>& nodes, const auto& elements, 
   return result;
 }
 
+Ramp ramp_of(const auto& entry) { return {entry.ramp_start, entry.ramp_time}; }
+
 struct FaceShares {
   std::map<int, double> of_node;  ///< m², ∫N
   double area = 0;                ///< m²
@@ -102,7 +104,7 @@ double area_spread_over(const Load& load, const WorldSetup& setup, const Model<R
 template <class Real>
 DeadLoad<Real> quadratic_dead_load(const Load& load, double spread_area, const std::vector<int>& nodes,
                                    const WorldSetup& setup, const std::vector<bool>& used, const Model<Real>& model) {
-  DeadLoad<Real> result{{}, {}, load.ramp_time};
+  DeadLoad<Real> result{{}, {}, ramp_of(load)};
   const auto add = [&](int n, const Vec3& f) {
     result.nodes.push_back(n);
     for (int i = 0; i < 3; ++i) result.forces.push_back(static_cast<Real>(f[i]));
@@ -134,7 +136,7 @@ DeadLoad<Real> dead_load(const Load& load, const std::vector<int>& nodes, const 
             area / 3 * load.vector;
     }
   }
-  DeadLoad<Real> result{{}, {}, load.ramp_time};
+  DeadLoad<Real> result{{}, {}, ramp_of(load)};
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     if (!used[static_cast<std::size_t>(nodes[k])]) continue;
     result.nodes.push_back(nodes[k]);
@@ -158,19 +160,19 @@ void make_loads(const WorldSetup& setup, Model<Real>& model) {
            quadratic_faces_within(model.loaded_faces, face_midedges(model.loaded_faces, model.mesh, model.midedges),
                                   nodes),
            static_cast<Real>(load.pressure),
-           load.ramp_time});
+           ramp_of(load)});
     else if (!model.midedges.empty())
       model.dead.push_back(quadratic_dead_load(load, model.spread_area[k], nodes, setup, used, model));
     else if (load.kind == Load::Kind::pressure)
       model.pressures.push_back(
-          {faces_within(model.loaded_faces, nodes), {}, static_cast<Real>(load.pressure), load.ramp_time});
+          {faces_within(model.loaded_faces, nodes), {}, static_cast<Real>(load.pressure), ramp_of(load)});
     else
       model.dead.push_back(dead_load<Real>(load, nodes, model.mesh, model.loaded_faces, used));
   }
   if (!setup.solver.is_static()) return;
-  const double duration = setup.solver.load_duration();
-  for (DeadLoad<Real>& load : model.dead) load.ramp_time = duration;
-  for (Pressure<Real>& load : model.pressures) load.ramp_time = duration;
+  const Ramp whole{0, setup.solver.load_duration()};
+  for (DeadLoad<Real>& load : model.dead) load.ramp = whole;
+  for (Pressure<Real>& load : model.pressures) load.ramp = whole;
 }
 
 std::vector<int> chosen_nodes(const std::vector<bool>& chosen) {
@@ -196,9 +198,9 @@ void set_boundary(const WorldSetup& setup, Model<Real>& model) {
   std::vector<std::array<int, 3>> winners(model.mesh.nodes.size(), {-1, -1, -1});  // of each coordinate
   for (std::size_t b = 0; b < setup.boundary.size(); ++b) {
     const Boundary& entry = setup.boundary[b];
-    const double ramp_time = setup.solver.is_static() ? setup.solver.load_duration() : entry.ramp_time;
+    const Ramp ramp = setup.solver.is_static() ? Ramp{0, setup.solver.load_duration()} : ramp_of(entry);
     model.prescribed_motions.push_back(
-        {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, ramp_time});
+        {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, ramp});
     for (const int n : inner(entry.nodes, model.order))
       for (std::size_t i = 0; i < 3; ++i)
         if (entry.axes.has[i]) winners[static_cast<std::size_t>(n)][i] = static_cast<int>(b);
@@ -214,7 +216,8 @@ void set_boundary(const WorldSetup& setup, Model<Real>& model) {
   model.speeds.assign(model.prescribed_motions.size(), 0);
   for (const ConstrainedNode& constrained : model.constrained) {
     double& speed = model.speeds[static_cast<std::size_t>(constrained.entry)];
-    speed = std::max(speed, prescribed_at(model, constrained, 0).v.norm());
+    const double start = model.prescribed_motions[static_cast<std::size_t>(constrained.entry)].ramp.start;
+    speed = std::max(speed, prescribed_at(model, constrained, start).v.norm());
   }
 }
 
@@ -223,6 +226,11 @@ void set_loads(const WorldSetup& setup, Model<Real>& model) {
   model.spread_area.clear();
   for (const Load& load : setup.loads) model.spread_area.push_back(area_spread_over(load, setup, model));
   make_loads(setup, model);
+}
+
+template <class Real>
+bool holds_face(const std::vector<int>& nodes, const Model<Real>& model) {
+  return !faces_within(model.loaded_faces, inner(nodes, model.order)).empty();
 }
 
 template <class Real>
@@ -359,6 +367,8 @@ template void set_boundary(const WorldSetup&, Model<float>&);
 template void set_boundary(const WorldSetup&, Model<double>&);
 template void set_loads(const WorldSetup&, Model<float>&);
 template void set_loads(const WorldSetup&, Model<double>&);
+template bool holds_face(const std::vector<int>&, const Model<float>&);
+template bool holds_face(const std::vector<int>&, const Model<double>&);
 template std::vector<int> surface_nodes_without(const Model<float>&, const std::vector<int>&);
 template std::vector<int> surface_nodes_without(const Model<double>&, const std::vector<int>&);
 template Model<float> make_model(const WorldSetup&);

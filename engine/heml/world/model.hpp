@@ -68,6 +68,10 @@ void set_boundary(const WorldSetup& setup, Model<Real>& model);
 template <class Real>
 void set_loads(const WorldSetup& setup, Model<Real>& model);
 
+/// Whether all three nodes of a face that loads act on are among nodes, mesh-file order.
+template <class Real>
+bool holds_face(const std::vector<int>& nodes, const Model<Real>& model);
+
 /// Nodes of the boundary that the elements outside some regions have (ascending, as the result): also where they meet
 /// those regions. Linear in the size of the mesh.
 template <class Real>

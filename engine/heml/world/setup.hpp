@@ -37,7 +37,7 @@ struct AxisSet {
 };
 
 /// Nodes held or moved. A moved node goes to rotate(X − origin) + origin + translate of its rest position X,
-/// translation and angle ramped linearly over `over` seconds from t = 0, then held. Of several on one coordinate of a
+/// translation and angle ramped linearly over ramp_time from ramp_start, then held. Of several on one coordinate of a
 /// node the last wins.
 struct Boundary {
   std::vector<int> nodes;         ///< mesh-file order
@@ -46,11 +46,12 @@ struct Boundary {
   Vec3 origin = Vec3::Zero();     ///< m
   double degrees = 0;             ///< right-handed about axis
   double ramp_time = 0;           ///< s; 0: at once
+  double ramp_start = 0;          ///< s
   AxisSet axes = {};                 ///< coordinates that are prescribed; the others are free
   bool operator==(const Boundary&) const = default;
 };
 
-/// A load on selected nodes, ramped linearly over `over` seconds from t = 0. What is removed of the body takes its
+/// A load on selected nodes, ramped linearly over ramp_time from ramp_start. What is removed of the body takes its
 /// share of a load along: faces that go with their element, nodes that lose all elements. Faces laid bare carry none.
 struct Load {
   enum class Kind {
@@ -63,6 +64,7 @@ struct Load {
   Vec3 vector = Vec3::Zero();  ///< N for force, Pa for traction
   double pressure = 0;         ///< Pa for pressure
   double ramp_time = 0;        ///< s; 0: at once
+  double ramp_start = 0;       ///< s
   bool operator==(const Load&) const = default;
 };
 

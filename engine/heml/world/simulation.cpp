@@ -112,7 +112,7 @@ void Simulation<Real>::move_constrained(bool moving_alone) {
 
 template <class Real>
 double Simulation<Real>::load() const {
-  return setup->solver.is_static() ? ramp(state.time, setup->solver.load_duration()) : 1;
+  return setup->solver.is_static() ? Ramp{0, setup->solver.load_duration()}(state.time) : 1;
 }
 
 template <class Real>

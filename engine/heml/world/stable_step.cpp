@@ -122,7 +122,7 @@ int steps_until_strained(const Simulation<Real>& s) {
   if (!(s.limit.stable > 0)) return steps_between_bounds_when_driven;
   double fastest = 0;
   for (std::size_t k = 0; k < s.model->prescribed_motions.size(); ++k)
-    if (s.state.time < s.model->prescribed_motions[k].ramp_time) fastest = std::max(fastest, s.model->speeds[k]);
+    if (s.model->prescribed_motions[k].ramp.is_growing(s.state.time)) fastest = std::max(fastest, s.model->speeds[k]);
   for (const auto& grasp : s.grasps) fastest = std::max(fastest, grasp.speed_at_most(s.state.x.data()));
   const double steps = change_between_bounds * s.model->spacing / (fastest * s.limit.stable);
   return static_cast<int>(std::clamp<double>(steps, steps_between_bounds_when_driven, steps_between_bounds_when_calm));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/world/conditions.hpp>
 #include <heml/world/failure.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/typed_world.hpp>
@@ -69,7 +70,7 @@ template <class Real>
 void TypedWorld<Real>::advance(double until) {
   ++s_.changes;
   if (s_.setup->solver.is_static()) {
-    load_to(ramp(until, s_.setup->solver.load_duration()));
+    load_to(Ramp{0, s_.setup->solver.load_duration()}(until));
     if (!s_.is_stopped()) s_.state.time = until;
     return;
   }
@@ -131,6 +132,7 @@ Status TypedWorld<Real>::carry_out(const Command& command) {
   if (const auto* reset = std::get_if<Reset>(&command)) {
     if (reset->scene) return reopen(), Status();
     editor_.undo_all();
+    restart_ramps(s_);  // time begins anew
     start();
   } else {
     status = std::visit(

@@ -34,7 +34,150 @@ Conditions conditions_of(const TetMesh& mesh) {
            {Load::Kind::pressure, at(0.06), Vec3::Zero(), 15, 0.01}}};
 }
 
+/// A bar at rest that nothing but its conditions acts on.
+WorldSetup resting_bar(Integrator integrator, bool quadratic) {
+  WorldSetup setup = bar(sample_material("neo_hookean"), integrator, false);
+  setup.boundary.clear();
+  setup.gravity.setZero();
+  setup.solver.quadratic = quadratic;
+  if (quadratic) setup.midedges = add_midedge_nodes(setup.mesh);
+  return setup;
+}
+
+/// Those of conditions_of(), slow enough for a dozen ticks.
+Conditions slow_conditions(const TetMesh& mesh) {
+  Conditions conditions = conditions_of(mesh);
+  conditions.boundary.back().ramp_time = 0.05;
+  for (std::size_t k = 0; k < conditions.loads.size(); ++k)
+    conditions.loads[k].ramp_time = 0.03 + 0.01 * static_cast<double>(k);
+  return conditions;
+}
+
 }  // namespace
+
+TEST_CASE("conditions: set late, ramps begin then: the body moves as one that had them from its start") {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::verlet, Integrator::backward_euler,
+                                      Integrator::bdf2, Integrator::tr_bdf2})
+    for (const bool quadratic : {false, true}) {
+      CAPTURE(integrator_name(integrator));
+      CAPTURE(quadratic);
+      WorldSetup setup = resting_bar(integrator, quadratic);
+      const Conditions conditions = slow_conditions(setup.mesh);
+      setup.boundary = {conditions.boundary.front()};
+      WorldSetup with = setup;
+      with.boundary = conditions.boundary;
+      with.loads = conditions.loads;
+      const auto early = make_world(with), late = make_world(setup);
+      tick(*late, 20);
+      expect(late->apply(SetBoundary{conditions.boundary}));
+      expect(late->apply(SetLoads{conditions.loads}));
+      for (const int ticks : {2, 10}) {  // within the ramps and after them
+        tick(*early, ticks);
+        tick(*late, ticks);
+        double moved = 0;
+        for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n)
+          moved = std::max(moved, (early->positions()[n] - setup.mesh.nodes[n]).norm());
+        REQUIRE(moved > 1e-5);
+        CHECK(rms_difference(late->positions(), early->positions()) < 1e-6 * moved);
+      }
+    }
+}
+
+TEST_CASE("conditions: entries that are listed again go on with their ramps, on fewer nodes too, and others begin") {
+  WorldSetup setup = resting_bar(Integrator::verlet, false);
+  const Conditions conditions = slow_conditions(setup.mesh);
+  setup.boundary = conditions.boundary;
+  setup.loads = conditions.loads;
+  const auto plain = make_world(setup), listed = make_world(setup);
+  tick(*plain, 3), tick(*listed, 3);
+  const double time = listed->time();
+  std::vector<Load> loads = conditions.loads;
+  std::reverse(loads.begin(), loads.end());
+  Load none;  // of no size, beside them
+  none.nodes = {7};
+  none.ramp_time = 1;
+  loads.push_back(none);
+  expect(listed->apply(SetLoads{loads}));
+  expect(listed->apply(SetBoundary{conditions.boundary}));
+  tick(*plain, 12), tick(*listed, 12);
+  CHECK(rms_difference(listed->positions(), plain->positions()) < 1e-12);
+  CHECK(listed->setup().loads.back().ramp_start == time);
+
+  loads = conditions.loads;
+  loads[0].nodes.pop_back();  // each other node bears what it did
+  loads[0].vector *= static_cast<double>(loads[0].nodes.size()) / static_cast<double>(loads[0].nodes.size() + 1);
+  loads[1].nodes.erase(loads[1].nodes.begin());
+  loads[2].pressure += 1;
+  expect(listed->apply(SetLoads{loads}));
+  CHECK(listed->setup().loads[0].ramp_start == 0);
+  CHECK(listed->setup().loads[1].ramp_start == 0);
+  CHECK(listed->setup().loads[2].ramp_start == listed->time());
+  expect(listed->apply(SetLoads{{conditions.loads[0], conditions.loads[0]}}));  // on more nodes again: both are new
+  for (const Load& load : listed->setup().loads) CHECK(load.ramp_start == listed->time());
+}
+
+TEST_CASE(
+    "conditions: half a ramp is taken back, brought back and kept in snapshots to the bit, and a reset begins anew") {
+  WorldSetup setup = resting_bar(Integrator::verlet, false);
+  const Conditions conditions = slow_conditions(setup.mesh);
+  setup.boundary = {conditions.boundary.front()};
+  const auto world = make_world(setup), other = make_world(setup);
+  tick(*world, 4);
+  expect(world->apply(SetBoundary{conditions.boundary}));
+  expect(world->apply(SetLoads{conditions.loads}));
+  tick(*world, 3);
+  const auto half = world->snapshot();
+  tick(*world, 3);
+  const auto expected = world->positions();
+  REQUIRE(other->restore(*half).ok());
+  tick(*other, 3);
+  CHECK(other->positions() == expected);
+
+  REQUIRE(world->restore(*half).ok());
+  expect(world->apply(SetLoads{{}}));
+  tick(*world, 2);
+  CHECK(world->positions() != expected);
+  expect(world->apply(StepHistory{-1}));
+  tick(*world, 3);
+  CHECK(world->positions() == expected);
+
+  expect(world->apply(Reset{}));
+  WorldSetup with = setup;
+  with.boundary = conditions.boundary;
+  with.loads = conditions.loads;
+  const auto made = make_world(with);
+  tick(*world, 5), tick(*made, 5);
+  CHECK(world->positions() == made->positions());
+}
+
+TEST_CASE(
+    "conditions: a load on faces that its nodes do not hold is refused, unless it acted before they were removed") {
+  const WorldSetup setup = resting_bar(Integrator::verlet, false);
+  const auto world = make_world(setup);
+  const std::vector<int> one_edge{4, 9};
+  for (const Load::Kind kind : {Load::Kind::traction, Load::Kind::pressure}) {
+    const Status status =
+        world->apply(SetLoads{{{Load::Kind::force, {tip}, Vec3::UnitX()}, {kind, one_edge, Vec3::UnitX(), 10}}});
+    CHECK(status.message() ==
+          "loads[1]: its 2 nodes hold no face of the surface (select all three nodes of at least one)");
+  }
+  CHECK(world->setup().loads.empty());
+
+  const Load pressure{Load::Kind::pressure, nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0599; }),
+                      Vec3::Zero(), 10};
+  expect(world->apply(SetLoads{{pressure}}));
+  RemoveElements ends;
+  for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t)
+    for (const int n : setup.mesh.tets[t])
+      if (setup.mesh.nodes[static_cast<std::size_t>(n)].x() > 0.0599) {
+        ends.which.tets.push_back(static_cast<int>(t));
+        break;
+      }
+  expect(world->apply(ends));
+  const std::vector<Load> left = world->setup().loads;
+  expect(world->apply(SetLoads{left}));
+  CHECK_FALSE(world->apply(SetLoads{{{Load::Kind::pressure, pressure.nodes, Vec3::Zero(), 20}}}).ok());
+}
 
 TEST_CASE("conditions: set before the first tick they give the bits of a world made with them") {
   for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler, Integrator::static_equilibrium})

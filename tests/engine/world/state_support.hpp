@@ -78,7 +78,7 @@ inline Command example(const SetTables&) { return SetTables{{{Vec3(0, -0.002, 0)
 inline Command example(const SetBoundary&) { return SetBoundary{{{{0, 5, 10}}, {{1}, Vec3(0, 1e-3, 0)}}}; }
 inline Command example(const SetLoads&) {
   return SetLoads{{{Load::Kind::force, {tip, above_tip}, Vec3(0, 0.01, 0)},
-                   {Load::Kind::pressure, {4, 9, 14}, Vec3::Zero(), 30}}};
+                   {Load::Kind::pressure, {4, 9, 14, 19}, Vec3::Zero(), 30}}};
 }
 inline Command example(const MoveProbe&) {
   return MoveProbe{0.006, Vec3::Zero(), 0.4, {Vec3(0.04, 0.03, 0.01), Vec3(0.045, 0.02, 0.01)}, 0.4};
