@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/materials/material.hpp>
+#include <heml/world/grasp_frequency.hpp>
 #include <heml/world/tool_commands.hpp>
 
 namespace heml {
@@ -10,16 +10,6 @@ namespace {
 constexpr double min_suture = 1e-4;  // of the body's size: what is drawn in further has no direction
 constexpr std::size_t max_places = 10000;
 constexpr double grip_reach = 0.25;  // of the body's size: how far a spring of a grasp can be drawn out before it slips
-
-/// ω of a grasp, 1/s: about as stiff as the patch of tissue it holds, whose own frequency is √(μ/ρ)/radius, and never
-/// so stiff that it shortens the step much.
-double tool_frequency(const WorldSetup& setup, double radius, double highest) {
-  double speed = 0;  // of shear waves, m/s
-  for (const RegionMaterial& entry : setup.materials)
-    speed = std::max(speed, std::sqrt(small_strain_moduli(entry.material).shear / entry.material.density));
-  if (speed == 0) return 0.25 * highest;  // a net of springs: no continuum to ask
-  return std::min(2 * speed / std::max(radius, 0.005), 0.25 * highest);
-}
 
 bool finite(const Vec3& v) { return v.allFinite(); }
 
@@ -83,11 +73,11 @@ Status ToolCommands<Real>::execute(const Grasp& command) {
     put_into_hand(std::move(grasp), command.hand);
     return {};
   }
-  GraspSpring<Real> grasp(
-      {command.hand, s_.grasps_taken + 1}, center, radius, surface_with(center, command.hidden), s_.model->mesh.nodes,
-      s_.state.x.data(), s_.masses->inverse,
-      static_cast<Real>(tool_frequency(*s_.setup, command.radius, static_cast<double>(s_.rest_frequency))),
-      grip_reach * s_.model->diagonal);
+  const std::vector<int> surface = surface_with(center, command.hidden);
+  const double omega = grasp_frequency(s_, center, command.radius, surface);
+  GraspSpring<Real> grasp({command.hand, s_.grasps_taken + 1}, center, radius, surface, s_.model->mesh.nodes,
+                          s_.state.x.data(), s_.masses->inverse, static_cast<Real>(omega),
+                          grip_reach * s_.model->diagonal);
   if (grasp.empty()) return fmt::format("grasp: node {} is constrained, or belongs to no element", command.node);
   put_into_hand(std::move(grasp), command.hand);
   ++s_.grasps_taken;
