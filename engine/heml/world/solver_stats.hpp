@@ -11,7 +11,8 @@ struct SolverStats {
   const char* integrator = "";  ///< scene name of the method in use: what "auto" has chosen, else the scene's
   double load = 1;              ///< fraction of motions, loads and gravity reached; below 1 in static worlds alone
   long iterations = 0;          ///< of Newton, over all steps or increments
-  double residual = 0;          ///< of the last step or increment, relative to the forces carried (solver.tolerance)
+  double residual = 0;          ///< of the last step or increment, relative to the forces carried (solver.tolerance);
+                                ///< 0 of explicit steps
   long lagging_flow_steps = 0;  ///< that did not converge with plastic flow in them, and were taken with it after them
   long damped_steps = 0;        ///< of a second-order method, taken by backward Euler (implicit_stepper.hpp)
   long explicit_rescues = 0;    ///< ticks that explicit substeps ended, where implicit steps did not converge

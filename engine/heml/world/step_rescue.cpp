@@ -85,7 +85,10 @@ bool StepRescue<Real>::take_explicit_substeps(double until) {
                        s_.state.time == until && (!before || limit_gain(*before, until));
   s_.method = method;
   s_.last_valid = s_.state;
-  if (!reached) restore(start);
+  if (reached)
+    s_.stats.residual = 0;  // explicit steps solve no equation
+  else
+    restore(start);
   return reached;
 }
 
