@@ -70,6 +70,10 @@ constexpr const char* about_events =
 An entry of `events` has a time and one action. Entries of one tick happen in the order in which they stand. An event that the world refuses
 ends the run with exit code 3.
 
+Times of events, and of files of `outputs`, are those since the start: `history` and `reset` take the state back, but not that time. `over` of
+`boundary` and `loads` counts from the event; an entry that stands there as before, on all its nodes or on some, goes on with its ramp. A `reset`
+begins all ramps anew.
+
 )";
 
 constexpr const char* about_recordings =

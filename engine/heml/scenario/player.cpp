@@ -32,13 +32,15 @@ Player::End Player::end_at(double time) const {
   return {rate_tick_ + static_cast<long>(whole), at_tick ? 0 : here - whole * tick_};
 }
 
-/// Applies the events of the next tick, once. They may include a reset, which sets the world's time to 0, and another
-/// rate.
+/// Applies the events of the next tick, once. They may include a reset or an undo, which take the world's time back,
+/// and another rate.
 void Player::begin_tick() {
   if (begun_ == world_.ticks()) return;
   begun_ = world_.ticks();
+  const double before = world_.time();
   schedule_.apply(world_);
   tick_start_ = world_.time();
+  if (tick_start_ != before) taken_back_ = world_.elapsed() - tick_start_;
   const double tick = world_.setup().solver.tick();
   if (tick == tick_) return;
   rate_start_ = world_.elapsed();

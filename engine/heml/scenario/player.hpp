@@ -18,6 +18,9 @@ class Player {
   void to(
       double time, const std::function<bool()>& on_tick = [] { return true; });
 
+  /// s since the start. World::time() is that of the state, which a reset or an undo takes back.
+  double time() const { return world_.time() + taken_back_; }
+
   std::span<const Event> past_events() const { return schedule_.past(); }  ///< applied to the world so far
 
  private:
@@ -35,6 +38,7 @@ class Player {
   double rate_start_ = 0;  ///< s, simulated, since when ticks have this length
   long rate_tick_ = 0;     ///< the tick then
   double tick_start_ = 0;  ///< s, World::time() at the start of the tick
+  double taken_back_ = 0;  ///< s, of World::time() by events
   long begun_ = -1;
 };
 

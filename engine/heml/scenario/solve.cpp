@@ -138,7 +138,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
 
   Player player(scene, *world);
   Trace trace(scene, *world);
-  trace.sample(*world);
+  trace.sample(*world, player.time());
   const Scene recorded = scene.solver.recovery ? as_recorded(scene, *world) : scene;
   RecoveryMonitor watch;
   InversionWatch inversions;
@@ -149,12 +149,12 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
       write_replay(out / recovery_file, recorded, player.past_events(), *world);
     if (news == RecoveryMonitor::Change::began)
       warn("{}; {} shows it again", world->recovery()->message, (out / recovery_file).string());
-    trace.sample(*world);
+    trace.sample(*world, player.time());
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);
     return true;
   };
   observers.at_landing = [&](const Landing& landing, bool is_last, bool reached) {
-    trace.sample(*world);
+    trace.sample(*world, player.time());
     if (reached) inversions.look_at(*world, landing.stem);
     if (is_last || reached) write_state(out, landing.stem, *world, is_last || scene.output_positions, scene.output_vtu);
   };

@@ -33,19 +33,17 @@ Trace::Trace(const Scene& scene, const World& world) : every_(scene.output_every
   history_rows_ += '\n';
 }
 
-void Trace::sample(World& world) {
+void Trace::sample(World& world, double time) {
   if (markers_.empty() && history_rows_.empty()) return;
-  const double time = world.time();
-  if (time < last_) next_ = 0;  // after a reset
   if (time == last_ || time < next_ * (1 - 1e-12)) return;
   last_ = time;
   const double passed = std::floor(time / every_ * (1 + 1e-12));
   next_ = std::isfinite(passed) ? every_ * (passed + 1) : time;  // not finite: every tick, or a time so short
-  if (!markers_.empty()) sample_markers(world);
-  if (!history_rows_.empty()) sample_history(world);
+  if (!markers_.empty()) sample_markers(world, time);
+  if (!history_rows_.empty()) sample_history(world, time);
 }
 
-void Trace::sample_markers(const World& world) {
+void Trace::sample_markers(const World& world, double time) {
   const std::vector<Vec3> x = world.positions(), v = world.velocities();
   for (const Marker& marker : markers_) {
     Vec3 place = Vec3::Zero(), velocity = Vec3::Zero();
@@ -54,18 +52,18 @@ void Trace::sample_markers(const World& world) {
       velocity += v[static_cast<std::size_t>(n)];
     }
     const double count = static_cast<double>(marker.nodes.size());
-    marker_rows_ += fmt::format("{:.17g},{}", world.time(), marker.name);
+    marker_rows_ += fmt::format("{:.17g},{}", time, marker.name);
     add(marker_rows_, place / count);
     add(marker_rows_, velocity / count);
     marker_rows_ += '\n';
   }
 }
 
-void Trace::sample_history(World& world) {
+void Trace::sample_history(World& world, double time) {
   const Energies energies = world.energies();
   const std::vector<double> J = world.point_volume_ratios();
   const auto [least, most] = std::minmax_element(J.begin(), J.end());
-  history_rows_ += fmt::format("{:.17g}", world.time());
+  history_rows_ += fmt::format("{:.17g}", time);
   for (const double value : {energies.kinetic, energies.elastic, energies.potential, *least, *most})
     add(history_rows_, value);
   add(history_rows_, force_of<GraspState>(world.tools()));

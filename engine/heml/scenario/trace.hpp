@@ -18,8 +18,9 @@ class Trace {
   /// world: of the scene, before its first tick. Throws InputError for a marker that selects no node.
   Trace(const Scene& scene, const World& world);
 
-  /// Call after every tick. Adds rows for the first state at or after each multiple of outputs.every.
-  void sample(World& world);
+  /// Call after every tick. Adds rows for the first state at or after each multiple of outputs.every. time: s since the
+  /// start, ascending.
+  void sample(World& world, double time);
 
   /// Writes the tables that the scene asks for. Throws InputError when one cannot be written.
   void write(const std::filesystem::path& folder) const;
@@ -32,8 +33,8 @@ class Trace {
     std::string name;
     std::vector<int> nodes;
   };
-  void sample_markers(const World& world);
-  void sample_history(World& world);
+  void sample_markers(const World& world, double time);
+  void sample_history(World& world, double time);
 
   std::vector<Marker> markers_;
   double every_;  ///< s; 0: every tick

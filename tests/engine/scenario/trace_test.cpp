@@ -76,6 +76,28 @@ TEST_CASE("a time between rows that is shorter than any tick gives a row a tick"
   CHECK(table_in(folder / "b/history.csv") == table_in(folder / "a/history.csv"));
 }
 
+TEST_CASE("rows and landings are at the time since the start, also after an undo and a reset") {
+  const TemporaryFolder folder;
+  Scene scene = falling(R"({"markers": [{"nodes": [3]}], "history": true, "times": [0.0042, 0.008]})");
+  const Command push = SetGravity{Vec3(0, 5, 0)};
+  scene.events = {{2, push}, {5, StepHistory{-1}}, {7, Reset{}}};
+  solve(scene, folder / "");
+  const auto rows = table_in(folder / "markers.csv"), history = table_in(folder / "history.csv");
+  std::vector<double> times, heights;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    times.push_back(std::stod(rows[k][0]));
+    heights.push_back(std::stod(rows[k][3]));
+    CHECK(history[k][0] == rows[k][0]);
+  }
+  const double expected[] = {0, 1, 2, 3, 4, 4.2, 5, 6, 7, 8, 9, 10, 10.4};  // ms
+  REQUIRE(times.size() == std::size(expected));
+  for (std::size_t k = 0; k < times.size(); ++k) CHECK(times[k] == doctest::Approx(1e-3 * expected[k]));
+  CHECK(heights[7] - heights[0] == doctest::Approx(-6 * 9.81e-6));  // the third step without the push
+  CHECK(heights[9] == heights[1]);                                  // the first after the reset
+  const auto landed = table_in(folder / "positions_1.csv");
+  CHECK(std::stod(landed[1 + 3][2]) == heights[9]);
+}
+
 TEST_CASE("tables that were not asked for are not written, and those of an earlier run go") {
   const TemporaryFolder folder;
   folder.file("markers.csv", "of an earlier run");
