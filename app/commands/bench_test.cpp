@@ -33,6 +33,17 @@ struct TestedMaterial {
   std::optional<StretchRange> stretch_range;  ///< of a preset
 };
 
+/// What a curve would silently leave out.
+void expect_passive_and_elastic(const Material& material, const std::string& name) {
+  const auto refuse = [&](const char* key) {
+    throw InputError(name, key,
+                     "has no part in a material test, whose curves are of passive tissue that does not yield",
+                     "leave it out");
+  };
+  if (material.active_stress > 0) refuse("active_stress");
+  if (material.plasticity) refuse("plasticity");
+}
+
 TestedMaterial tested_material(const std::string& name) {
   std::error_code error;
   const bool is_file = std::filesystem::exists(name, error);
@@ -53,6 +64,7 @@ TestedMaterial tested_material(const std::string& name) {
   if (!material.fields.empty() || !material.fibre_field.empty())
     throw InputError(name, "", "takes parameters from mesh fields, which a material test does not have",
                      "give numbers");
+  expect_passive_and_elastic(material, name);
   return {material, fmt::format("{} ({})", law.title, std::filesystem::path(name).filename().string()), std::nullopt};
 }
 

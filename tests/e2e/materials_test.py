@@ -138,6 +138,11 @@ class Materials(ProgramCase):
         self.assert_refused(bench(good, "--data", self.write("d.csv", "stretch,stress\n1.1,x\n")), 3, "line 2")
         self.assert_refused(bench(good, "--data", self.write("d.csv", "1.1,2\n")), 3, "stretch,stress")
         self.assert_refused(bench(good, "--test", "relaxation"), 3, "relax")
+        law = {"law": "stvk", "young": 1e4, "poisson": 0.3}
+        muscle = self.write("muscle.json", law | {"active_stress": 100, "fibre": [1, 0, 0]})
+        self.assert_refused(bench(muscle), 3, "muscle.json: active_stress: has no part in a material test")
+        clay = self.write("clay.json", law | {"plasticity": {"yield": 10}})
+        self.assert_refused(bench(clay), 3, "clay.json: plasticity: has no part in a material test")
         springs = self.write("springs.json", {"law": "mass_spring", "stiffness": 10})
         self.assert_refused(bench(springs), 2, "mass_spring")
         for wrong in (["--test", "bending"], ["--points", "1"], ["--from", "2", "--to", "1"], ["--from", "-1"],
