@@ -69,6 +69,11 @@ nb::dict probe(nb::object material, nb::object given_F, nb::object given_dF) {
   if (!find_law(law.law)->is_continuum)
     throw InputError("material", "law", fmt::format("'{}' has no energy of the deformation gradient", law.law),
                      "give a law that has one");
+  if ((law.active_stress > 0 || law.has_internal_state()) &&
+      PyErr_WarnEx(PyExc_UserWarning,
+                   "material: the law alone is evaluated, without active stress, viscosity, relaxation and plasticity",
+                   1) < 0)
+    throw nb::python_error();
   given_F = input_array(given_F, "F", {-1, 3, 3});
   const ArrayMemory F(given_F, "F", {-1, 3, 3}, ArrayMemory::Access::read);
   const Py_ssize_t n = F.extent(0);
@@ -111,7 +116,8 @@ void bind_solve(nb::module_& module) {
   module.def("probe", &probe, "material"_a, "F"_a, "dF"_a = nb::none(),
              "Evaluates a law at deformation gradients F (n, 3, 3): a dict of W (n,) in J/m³, P (n, 3, 3), the first "
              "Piola-Kirchhoff stress in Pa, and, where dF (n, 3, 3) is given, dP = ∂P/∂F : dF (n, 3, 3) in Pa. "
-             "material: an entry of a scene's `materials`. NaN where the law is not defined.");
+             "material: an entry of a scene's `materials`; of active stress and rate effects, which have no part, a "
+             "warning tells. NaN where the law is not defined.");
 }
 
 }  // namespace heml::python

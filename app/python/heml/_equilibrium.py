@@ -21,6 +21,7 @@ from heml._scene_paths import set_number
 
 Array = NDArray[np.float64]
 
+_beside_law = ("region", "active_stress", "viscosity", "bulk_viscosity", "relaxation", "plasticity")
 _without_loads = ("boundary", "loads", "events", "initial", "tables", "self_contact", "tearing", "outputs", "checkpoints")
 
 
@@ -69,6 +70,8 @@ def unsupported(scene: dict[str, Any]) -> str | None:
     for material in scene["materials"]:
         if material.get("law") == "mass_spring":
             return "the law mass_spring has no stress"
+        if material.get("active_stress"):
+            return "a material has active stress"
         if any(isinstance(value, dict) and "field" in value for value in material.values()):
             return "a material has parameters by element"
     return None
@@ -128,7 +131,7 @@ class Equilibrium:
             chosen = self.entry_of_tet == number
             if not chosen.any():
                 continue
-            law = {key: value for key, value in material.items() if key != "region"}
+            law = {key: value for key, value in material.items() if key not in _beside_law}
             if dF is None:
                 out[chosen] = heml.probe(law, F[chosen])["P"]
             else:

@@ -60,6 +60,17 @@ def test_probe_gives_the_formula_and_its_derivative():
     assert "dP" not in heml.probe(material, F)
 
 
+@pytest.mark.parametrize(
+    "term", [{"active_stress": 5e4, "fibre": [1, 0, 0]}, {"viscosity": 3}, {"plasticity": {"yield": 1}}]
+)
+def test_probe_tells_that_terms_beside_the_law_are_left_out(term):
+    law = {"law": "neo_hookean", "young": 1e4, "poisson": 0.3}
+    F = [np.diag([1.2, 0.9, 1]).tolist()]
+    with pytest.warns(UserWarning, match="the law alone is evaluated, without active stress"):
+        got = heml.probe(law | term, F)
+    assert np.array_equal(got["P"], heml.probe(law, F)["P"])
+
+
 def test_probe_gives_nan_outside_the_range():
     got = heml.probe({"law": "neo_hookean", "young": 1e4, "poisson": 0.3}, [np.diag([-1.0, 1, 1]).tolist(), np.eye(3).tolist()])
     assert np.isnan(got["W"][0]) and np.isnan(got["P"][0]).all()
