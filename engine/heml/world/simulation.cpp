@@ -8,8 +8,9 @@ namespace heml {
 namespace {
 
 constexpr std::size_t node_grain = 400;
-constexpr double table_speed = 1;  // of the body's diagonal, 1/s: at which a table rises into tissue
-constexpr double touching = 1e-6;  // of the body's diagonal: tissue so deep in a table lies on it
+constexpr double table_speed = 1;     // of the body's diagonal, 1/s: at which a table rises into tissue, or faster
+constexpr double longest_rise = 0.5;  // s: from below pieces that lie deep
+constexpr double touching = 1e-6;     // of the body's diagonal: tissue so deep in a table lies on it
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
   std::vector<Material> materials;
@@ -210,27 +211,35 @@ template <class Real>
 void Simulation<Real>::place_tables() {
   contacts.tables.clear();
   for (const Table& table : setup->tables) {
-    contacts.tables.push_back({table, 0, table_speed * model->diagonal, state.time});
+    contacts.tables.push_back({table});
     contacts.tables.back().table.normal.normalize();
   }
   update_contact_surfaces();
-  if (setup->solver.is_static()) return;  // time does not pass
+  for (PlacedTable& placed : contacts.tables) find_rise(placed);
+}
+
+// From below the deepest node. In static worlds time does not pass.
+template <class Real>
+void Simulation<Real>::find_rise(PlacedTable& placed) const {
+  if (setup->solver.is_static()) return;
   const auto at = [this](int n) {
     const Real* x = &state.x[3 * static_cast<std::size_t>(n)];
     return Vec3(static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2]));
   };
-  for (PlacedTable& placed : contacts.tables) {
-    double deepest = 0;
-    for (const int n : contacts.boundary.nodes)
-      deepest = std::max(deepest, placed.table.normal.dot(placed.table.point - at(n)));
-    if (deepest > touching * model->diagonal) placed.depth = deepest;
-  }
+  double deepest = 0;
+  for (const int n : contacts.boundary.nodes)
+    deepest = std::max(deepest, placed.table.normal.dot(placed.table.point - at(n)));
+  placed.depth = deepest > touching * model->diagonal ? deepest : 0;
+  placed.speed = std::max(table_speed * model->diagonal, placed.depth / longest_rise);
+  placed.start = state.time;
 }
 
 // There are other surfaces, or the body has another skin.
 template <class Real>
 void Simulation<Real>::update_contact_surfaces() {
   update_contact_boundary();
+  for (PlacedTable& placed : contacts.tables)
+    if (placed.rises(state.time)) find_rise(placed);  // what was deepest may be gone
   contacts.reports.assign(contacts.surfaces(state.time).size(), {});
   impulses.begin_tick();
   impulses.set_memory({});

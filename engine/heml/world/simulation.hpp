@@ -128,6 +128,8 @@ struct Simulation : SimulationState<Real> {
 
   /// Takes the setup's tables, which rise into tissue that is where they are put.
   void place_tables();
+  /// From where a table that is put to its place now rises.
+  void find_rise(PlacedTable& placed) const;
   /// Rebuilds what depends on the list of contact surfaces or on the boundary of the mesh.
   void update_contact_surfaces();
   /// Rebuilds self-contact for the current elements.
