@@ -72,7 +72,7 @@ TEST_CASE("above a plane the gap of a node is its height, and only nodes nearer 
   REQUIRE(expected.size() > 1);
   REQUIRE(expected.size() < boundary.nodes.size());
   const auto at = [&](int k) { return x[static_cast<std::size_t>(k)]; };
-  const ContactSurface plane = surface_of(Table{origin, n, 0.5});
+  const ContactSurface plane = surface_of(PlacedTable{{origin, n, 0.5}}, 0);
   CHECK(plane.friction == 0.5);
   each_contact(plane, boundary, 0.1, at, [&](const ContactPoint& point) {
     met.push_back(point.nodes[0]);
@@ -84,6 +84,18 @@ TEST_CASE("above a plane the gap of a node is its height, and only nodes nearer 
           doctest::Approx(point.gap + 0.25).epsilon(1e-14));
   });
   CHECK(met == expected);
+}
+
+TEST_CASE("a table that rises is below its place by what is left of its way") {
+  const Vec3 n = Vec3(2, -1, 2) / 3, place(0.5, 0, 1);
+  const PlacedTable placed{{place, n, 0.5}, 0.3, 0.2, 1};
+  const auto below = [&](double time) { return n.dot(place - surface_of(placed, time).point); };
+  CHECK(below(1) == doctest::Approx(0.3));
+  CHECK(below(2) == doctest::Approx(0.1));
+  CHECK(surface_of(placed, 2.6).point == place);
+  CHECK(surface_of(PlacedTable{{place, n, 0.5}}, 0).point == place);
+  CHECK(placed.rises(2));
+  CHECK_FALSE(placed.rises(2.6));
 }
 
 TEST_CASE("a ball meets a face at its inside, an edge or a corner, whichever is nearest") {
