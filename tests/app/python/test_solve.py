@@ -64,7 +64,7 @@ def test_probe_gives_the_formula_and_its_derivative():
     "term", [{"active_stress": 5e4, "fibre": [1, 0, 0]}, {"viscosity": 3}, {"plasticity": {"yield": 1}}]
 )
 def test_probe_tells_that_terms_beside_the_law_are_left_out(term):
-    law = {"law": "neo_hookean", "young": 1e4, "poisson": 0.3}
+    law = {"law": "neo_hookean_iso", "K1": 2e3, "kappa": 1e4}
     F = [np.diag([1.2, 0.9, 1]).tolist()]
     with pytest.warns(UserWarning, match="the law alone is evaluated, without active stress"):
         got = heml.probe(law | term, F)
