@@ -94,7 +94,9 @@ TEST_CASE("scene fit: moduli of a law are found from starts far off, to either s
                        "bar.json");
   };
   const MeasuredPlaces measured = places_in(bar(1000, 2e4), 1e-5);
-  for (const auto& [K1, kappa] : {std::pair(10.0, 6e3), {1e4, 200.0}, {1e5, 2e5}, {300.0, 2e6}}) {
+  const std::pair<double, double> starts[] = {{10, 6e3}, {1e4, 200}, {1e5, 2e5}, {300, 2e6}};
+  for (const auto& start : starts) {
+    const double K1 = start.first, kappa = start.second;
     CAPTURE(K1);
     CAPTURE(kappa);
     const SceneFit fit = fit_scene(bar(1000, 2e4), measured, {{"materials[0].K1", K1}, {"materials[0].kappa", kappa}});
