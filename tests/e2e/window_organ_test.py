@@ -148,8 +148,9 @@ class Organs(WindowCase):
         scene = self.folder / "slow.json"
         scene.write_text(json.dumps(slow_scene()))
         self.begin(scene, "--record", "out.jsonl", "--size", "1280x720")
-        self.do("mousemove", 640, 700)
-        before = self.display.picture()
+        self.do("mousemove", 640, 700, "key", "space")
+        before = self.steady()  # of a paused body, which is not late, however long the start took
+        self.do("key", "space")
         # The banner comes after a second; it stands in the right column, below the values.
         self.wait_for("the banner", lambda: self.display.picture().change(before, 1030, 1270) > 4)
         self.settle()
