@@ -48,3 +48,13 @@ vec4 noise(vec3 p) {
                          k3 + k6 * u.x + k5 * u.y + k7 * u.x * u.y);
   return vec4(slope, value);
 }
+
+// Fraction of a wide lamp that is visible from a place in its shadow map.
+float lamp_visibility(sampler2DShadow map, vec3 at) {
+  float sum = 0.0;
+  for (int i = 0; i < 12; ++i) {  // Vogel's disc
+    float angle = 2.39996 * float(i), r = 0.030 * sqrt((float(i) + 0.5) / 12.0);
+    sum += texture(map, at + vec3(r * cos(angle), r * sin(angle), 0.0));
+  }
+  return sum / 12.0;
+}

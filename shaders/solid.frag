@@ -14,22 +14,7 @@ uniform vec3 key_direction;
 uniform vec3 tint;
 uniform float metal;  // 1: steel, 0: enamel
 #ifdef SHADED
-uniform mat4 shadow_matrix;
-uniform sampler2DShadow shadow_map;
-
-// Visible fraction of the wide key light. The map has what is round the body; beyond it there are no shadows.
-float key_visibility() {
-  vec3 at = (shadow_matrix * vec4(v_position, 1.0)).xyz * 0.5 + 0.5;
-  at.z = min(at.z - 0.012, 1.0);
-  float sum = 0.0;
-  for (int i = 0; i < 24; ++i) {  // Vogel's disc
-    float angle = 2.39996 * float(i), r = 0.030 * sqrt((float(i) + 0.5) / 24.0);
-    vec3 tap = at + vec3(r * cos(angle), r * sin(angle), 0.0);
-    bool is_inside = all(equal(tap.xy, clamp(tap.xy, 0.0, 1.0)));
-    sum += is_inside ? texture(shadow_map, tap) : 1.0;
-  }
-  return sum / 24.0;
-}
+in float v_visible;  // visible fraction of the key light
 #endif
 
 out vec4 colour;
@@ -42,7 +27,7 @@ void main() {
   float fresnel = 0.04 + 0.96 * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 5.0);
   float lit = 0.15 + 0.85 * clamp(dot(n, key_direction), 0.0, 1.0);
 #ifdef SHADED
-  lit *= key_visibility();
+  lit *= v_visible;
 #endif
   vec3 diffuse = tint * (key_colour * lit + 0.6 * sky_colour);
   vec3 mirror = room + 2.2 * lamp * key_colour;

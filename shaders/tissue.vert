@@ -60,12 +60,7 @@ out float v_cover;
 float key_visibility() {
   vec3 at = (shadow_matrix * vec4(a_position, 1.0)).xyz * 0.5 + 0.5;
   at.z -= 0.012 + 0.02 * (1.0 - clamp(dot(a_normal, key_direction), 0.0, 1.0));
-  float sum = 0.0;
-  for (int i = 0; i < 12; ++i) {  // Vogel's disc
-    float angle = 2.39996 * float(i), r = 0.030 * sqrt((float(i) + 0.5) / 12.0);
-    sum += texture(shadow_map, at + vec3(r * cos(angle), r * sin(angle), 0.0));
-  }
-  return sum / 12.0;
+  return lamp_visibility(shadow_map, at);
 }
 
 void main() {

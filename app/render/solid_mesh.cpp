@@ -88,24 +88,32 @@ SolidShape ball() {
 }
 
 SolidShape disc() {
-  constexpr std::uint32_t round = 64;
+  constexpr std::uint32_t round = 96, rings = 40;
   SolidShape shape;
   const auto vertex = [&](const Vec3f& position, const Vec3f& normal) { shape.vertices.push_back({position, normal}); };
+  const auto at = [](std::uint32_t k) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / round;
+    return Vec3f(std::cos(angle), 0, std::sin(angle));
+  };
   const Vec3f up = Vec3f::UnitY();
   vertex(Vec3f::Zero(), up);
   vertex(-up, -up);
-  for (std::uint32_t k = 0; k < round; ++k) {
-    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / round;
-    const Vec3f out(std::cos(angle), 0, std::sin(angle));
-    vertex(out, up);
-    vertex(out, out);
-    vertex(out - up, out);
-    vertex(out - up, -up);
+  for (std::uint32_t k = 0; k < round; ++k) {  // round the side and the bottom
+    vertex(at(k), at(k));
+    vertex(at(k) - up, at(k));
+    vertex(at(k) - up, -up);
   }
+  for (std::uint32_t ring = 1; ring <= rings; ++ring)
+    for (std::uint32_t k = 0; k < round; ++k) vertex(static_cast<float>(ring) / rings * at(k), up);
+  const std::uint32_t top = 2 + 3 * round;  // the innermost ring
   for (std::uint32_t k = 0; k < round; ++k) {
-    const std::uint32_t a = 2 + 4 * k, b = 2 + 4 * ((k + 1) % round);
-    for (const std::uint32_t i : {0u, b, a, a + 1, b + 1, a + 2, b + 1, b + 2, a + 2, 1u, a + 3, b + 3})
+    const std::uint32_t next = (k + 1) % round, a = 2 + 3 * k, b = 2 + 3 * next;
+    for (const std::uint32_t i : {a, b, a + 1, b, b + 1, a + 1, 1u, a + 2, b + 2, 0u, top + next, top + k})
       shape.triangles.push_back(i);
+    for (std::uint32_t inner = top; inner < top + (rings - 1) * round; inner += round)
+      for (const std::uint32_t i :
+           {inner + k, inner + next, inner + round + k, inner + next, inner + round + next, inner + round + k})
+        shape.triangles.push_back(i);
   }
   return shape;
 }

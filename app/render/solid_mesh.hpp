@@ -36,7 +36,7 @@ SolidShape forceps_jaw();
 /// A ball of radius 1 about the origin.
 SolidShape ball();
 
-/// A disc: radius 1, its top at y = 0, its bottom at y = −1.
+/// A disc: radius 1, its top at y = 0, its bottom at y = −1. The top has rings of vertices, for shadows.
 SolidShape disc();
 
 /// A pin with its point at the origin and its head at (0, 1, 0).
