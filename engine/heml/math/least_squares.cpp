@@ -36,6 +36,7 @@ struct TrustRegion {
   Vector scale;  ///< D
   double radius = 0;
   double reach = 2;  ///< of a logarithm: a factor of 7
+  bool is_cut = false;  ///< smaller than the data ask for, since r is not defined all round
 
   void adopt(const Matrix& J) {
     const Vector norms = J.colwise().norm().transpose();
@@ -79,17 +80,20 @@ bool step_downhill(const LeastSquaresProblem& problem, const LeastSquaresOptions
     const Vector next = at.u + step;
     const bool is_short = !(step.norm() > options.step * (1 + at.u.norm()));
     const auto r = problem.residuals(next);
-    const double before = at.r.squaredNorm(), fall = r ? before - r->squaredNorm() : -1;
+    const bool is_defined = r && r->allFinite();
+    const double before = at.r.squaredNorm(), fall = is_defined ? before - r->squaredNorm() : -1;
     const double told = before - (at.r + at.J * step).squaredNorm();
-    region.adapt(fall / told, step);
+    region.adapt(fall > 0 ? fall / told : 0, step);  // else it shrinks, whatever told is, until the step is short
+    if (!is_defined) region.is_cut = true;
     if (fall > 0) {
+      if (!is_limited) region.is_cut = false;
       at.converged = is_short && !is_limited && fall <= options.change * before;
       at.u = next;
       at.r = *r;
       return true;
     }
     if (is_short) {
-      at.converged = r.has_value();
+      at.converged = !region.is_cut;
       return false;
     }
   }

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <heml/math/least_squares.hpp>
 
 namespace heml::least_squares_test {
@@ -68,6 +69,15 @@ TEST_CASE("least squares: a variable that begins at 0 is found far away") {
   CHECK(fit.converged);
   CHECK(fit.iterations < 40);
   CHECK(fit.u[0] == doctest::Approx(4000));
+}
+
+TEST_CASE("least squares: a search ends where residuals are no numbers, and has not converged there") {
+  const auto wall = [](const VectorXd& u) -> std::optional<VectorXd> {
+    return VectorXd{{u[0] - 3, std::abs(u[0]) < 0.1 ? 0 : std::nan("")}};
+  };
+  const LeastSquaresFit fit = minimise_squares({wall}, VectorXd::Zero(1));
+  CHECK_FALSE(fit.converged);
+  CHECK(fit.u[0] == doctest::Approx(0.1).epsilon(0.01));
 }
 
 TEST_CASE("least squares: variables that the data tell only together are undetermined, others are not") {
