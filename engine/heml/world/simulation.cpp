@@ -8,9 +8,9 @@ namespace heml {
 namespace {
 
 constexpr std::size_t node_grain = 400;
-constexpr double table_speed = 1;     // of the body's diagonal, 1/s: at which a table rises into tissue, or faster
-constexpr double longest_rise = 2;    // s: from below pieces that lie deep
-constexpr double touching = 1e-6;     // of the body's diagonal: tissue so deep in a table lies on it
+constexpr double table_speed = 1;   // of the body's diagonal, 1/s: at which a table rises into tissue, or faster
+constexpr double longest_rise = 2;  // s: from below pieces that lie deep
+constexpr double touching = 1e-6;   // of the body's diagonal: tissue so deep in a table lies on it
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
   std::vector<Material> materials;
