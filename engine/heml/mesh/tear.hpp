@@ -26,6 +26,7 @@ struct Tear {
 /// The existing elements round each node.
 class NodeToElements {
  public:
+  NodeToElements() = default;
   NodeToElements(const TetMesh& mesh, const Topology& topology);
   std::span<const int> of(int node) const {
     const auto n = static_cast<std::size_t>(node);

@@ -24,9 +24,29 @@ struct ContactImpulses<Real>::StepPath {
 
 template <class Real>
 void ContactImpulses<Real>::begin_tick() {
-  impulse_.clear();
-  touching_.clear();
-  duration_ = normal_impulse_ = 0;
+  sums_ = {};
+}
+
+template <class Real>
+void ContactImpulses<Real>::keep(const Contacts& contacts, Record& record) const {
+  record.memory = memory_;
+  record.sums = sums_;
+  record.reports = contacts.reports;
+}
+
+template <class Real>
+void ContactImpulses<Real>::restore(const Record& record, Contacts& contacts) {
+  memory_ = record.memory;
+  sums_ = record.sums;
+  contacts.reports = record.reports;
+}
+
+template <class Real>
+void ContactImpulses<Real>::list_nodes(std::vector<int>& nodes) const {
+  nodes.assign(probe_.nodes().begin(), probe_.nodes().end());
+  if (!tissue_.empty()) nodes.insert(nodes.end(), tissue_.nodes().begin(), tissue_.nodes().end());
+  for (const Stopped& stopped : stopped_)
+    nodes.insert(nodes.end(), stopped.point.nodes.begin(), stopped.point.nodes.begin() + stopped.point.count);
 }
 
 template <class Real>
@@ -36,9 +56,9 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   const double h = time_after - time_before;
   surfaces_ = contacts.surfaces(time_after);
   contacts.reports.resize(surfaces_.size());
-  impulse_.resize(contacts.reports.size(), Vec3::Zero());
-  touching_.resize(contacts.reports.size(), 0);
-  duration_ += h;
+  sums_.impulse.resize(contacts.reports.size(), Vec3::Zero());
+  sums_.touching.resize(contacts.reports.size(), 0);
+  sums_.duration += h;
   stopped_.clear();
   if (memory_.time != time_before) memory_ = {};
   memory_.time = time_after;
@@ -87,7 +107,7 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   if (!contacts.tissue) return;
   for (const int n : tissue_.nodes()) place(n);
   tissue_.remember_first_half(x, memory_.pairs);
-  tissue_.publish(shrink, normal_impulse_, contacts.reports.back());
+  tissue_.publish(shrink, sums_.normal_impulse, contacts.reports.back());
 }
 
 /// Whether another surface stopped a node of a self-contact pair, so that the two must be solved in turn.
@@ -132,10 +152,10 @@ void ContactImpulses<Real>::report_probe(double weight, Contacts& contacts, cons
   int count = 0;
   probe_.each_impulse([&](const ContactPoint& point, const Vec3& impulse) {
     ++count;
-    impulse_[s] += weight * impulse;
+    sums_.impulse[s] += weight * impulse;
     contacts.reports[s].work += weight * impulse.dot(at(v, point));
   });
-  touching_[s] = std::max(touching_[s], count);
+  sums_.touching[s] = std::max(sums_.touching[s], count);
 }
 
 /// The record of a point on surface s in this step, made where there is none.
@@ -181,7 +201,7 @@ void ContactImpulses<Real>::push(Stopped& stopped, const ContactPoint& point, do
     stopped.friction = total;
   }
   apply_impulse(point, impulse, inverse_mass, v);
-  impulse_[stopped.surface] += weight * impulse;
+  sums_.impulse[stopped.surface] += weight * impulse;
   contacts.reports[stopped.surface].work += weight * impulse.dot(at(v, point));
 }
 
@@ -237,7 +257,7 @@ void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vect
   }
   if (contacts.tissue) {
     tissue_.remember_second_half(memory_.pairs);
-    tissue_.publish(1, normal_impulse_, contacts.reports.back());
+    tissue_.publish(1, sums_.normal_impulse, contacts.reports.back());
   }
   publish(contacts, x);
 }
@@ -246,7 +266,7 @@ template <class Real>
 void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) {
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     ContactReport& report = contacts.reports[s];
-    report.force = impulse_[s] / duration_;
+    report.force = sums_.impulse[s] / sums_.duration;
     report.energy = report.max_penetration = 0;
     report.contact_count = 0;
   }
@@ -258,7 +278,7 @@ void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) {
     });
   }
   if (contacts.tissue) {
-    contacts.reports.back().normal_force = normal_impulse_ / duration_;
+    contacts.reports.back().normal_force = sums_.normal_impulse / sums_.duration;
     contacts.reports.back().rounds = tissue_.rounds();
     contacts.reports.back().residual = tissue_.residual();
   }
@@ -271,7 +291,8 @@ void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) {
   for (const Stopped& stopped : stopped_) count(stopped.surface, stopped.point);
   probe_.each_impulse([&](const ContactPoint& point, const Vec3&) { count(probe_surface(contacts), point); });
   for (std::size_t s = 0; s < surfaces_.size(); ++s)  // impulses come and go within a tick
-    touching_[s] = contacts.reports[s].contact_count = std::max(touching_[s], contacts.reports[s].contact_count);
+    sums_.touching[s] = contacts.reports[s].contact_count =
+        std::max(sums_.touching[s], contacts.reports[s].contact_count);
 }
 
 template class ContactImpulses<float>;

@@ -31,6 +31,13 @@ class ContactImpulses {
   /// Removes inward velocities of the points that the first half stopped, and updates the contacts' reports.
   void second_half_step(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x, Real* v);
 
+  /// What a step changes here and in the reports, so that it can be taken again.
+  struct Record;
+  void keep(const Contacts& contacts, Record& record) const;
+  void restore(const Record& record, Contacts& contacts);
+  /// Nodes of the contacts of the step that first_half_step() began; some may be there more than once.
+  void list_nodes(std::vector<int>& nodes) const;
+
   /// What carries over from step to step. A step that does not begin where the last one ended starts without it.
   const ContactMemory& memory() const { return memory_; }
   void set_memory(ContactMemory memory) { memory_ = std::move(memory); }
@@ -57,15 +64,27 @@ class ContactImpulses {
 
   void report_probe(double weight, Contacts& contacts, const Real* v);
 
+  /// Since the tick began.
+  struct Sums {
+    double normal_impulse = 0;  ///< N s, of self-contact
+    std::vector<Vec3> impulse;  ///< N s, of each surface
+    std::vector<int> touching;  ///< points of each surface in contact, most in a step
+    double duration = 0;        ///< s
+  };
+
   SelfContactImpulses<Real> tissue_;
   ProbeImpulses<Real> probe_;
-  double normal_impulse_ = 0;  ///< N s, of self-contact, since the tick began
   ContactMemory memory_;
   std::vector<Stopped> stopped_;          ///< in the first half the last surface first
-  std::vector<Vec3> impulse_;             ///< N s, of each surface, since the tick began
-  std::vector<int> touching_;             ///< points of each surface in contact, most in a step since the tick began
-  double duration_ = 0;                   ///< s, since the tick began
+  Sums sums_;
   std::vector<ContactSurface> surfaces_;  ///< at the end of the step
+};
+
+template <class Real>
+struct ContactImpulses<Real>::Record {
+  ContactMemory memory;
+  Sums sums;
+  std::vector<ContactReport> reports;
 };
 
 }  // namespace heml

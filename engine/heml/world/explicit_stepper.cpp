@@ -13,6 +13,8 @@ namespace heml {
 namespace {
 
 constexpr std::size_t coordinate_grain = 3 * 400;
+constexpr double growth_after_strain = 0.05;      // a step, of steps after one that deformed an element too much
+constexpr double shortest_of_step = 1.0 / 1024;   // below it elements may be deformed as they will
 constexpr std::size_t cached_coordinates = 2048;  // still in the first-level cache when they are read again
 
 /// Whether |v| ≤ most for all coordinates [begin, end); false where one is NaN.
@@ -61,15 +63,39 @@ std::optional<StopReason> ExplicitStepper<Real>::advance(double until, long most
     if (!s_.setup->solver.step) {
       refresh_stable_step();
       if (!(s_.limit.stable > min_step)) return StopReason{StopReason::Cause::unstable, -1, -1, why_no_step()};
-      h = left / std::ceil(left / s_.limit.stable);
+      h = left / std::ceil(left / std::min(s_.limit.stable, s_.limit.of_strain));
     }
     const bool last = s_.state.time + 1.5 * h > until;
     const double after = last ? until : s_.state.time + h;
     const auto failure = step(static_cast<Real>(after - s_.state.time), after);
     ++s_.substeps;
-    if (failure) return failure;
+    if (failure && !may_try_shorter(*failure, std::min(h, s_.limit.of_strain))) return failure;
   }
   return std::nullopt;
+}
+
+/// A given step is taken as it is; without cuts and contacts elements do not change so fast.
+template <class Real>
+bool ExplicitStepper<Real>::checks_strain() const {
+  return !s_.setup->solver.step && (!s_.contacts.empty() || !s_.edits.empty());
+}
+
+/// Whether a step of h that failed may succeed if it is shorter: the next one will be. The state is that before it.
+template <class Real>
+bool ExplicitStepper<Real>::may_try_shorter(const StopReason& failure, double h) {
+  if (failure.cause != StopReason::Cause::out_of_range || !checks_strain()) return false;
+  if (!(h > s_.limit.stable * shortest_of_step)) return false;
+  shorten(h / 2);
+  return true;
+}
+
+/// The steps that follow are of h at most, and grow slowly; the contacts are those before the step.
+template <class Real>
+void ExplicitStepper<Real>::shorten(double h) {
+  s_.limit.of_strain = h;
+  s_.limit.steps_to_strain = 0;
+  need_stable_step(s_);
+  if (!s_.contacts.empty()) s_.impulses.restore(before_, s_.contacts);
 }
 
 /// Evaluates the stable step again when it may have changed.
@@ -116,18 +142,7 @@ std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_a
   s_.last_valid.time = s.time;
   s.x.resize(s_.masses->inverse_per_dof.size());
   s.v.resize(s_.masses->inverse_per_dof.size());
-
-  const FirstHalfStep<Real> first{inverse_mass_per_dof,   s.f.data(), s_.last_valid.x.data(),
-                                  s_.last_valid.v.data(), s.x.data(), s.v.data()};
-  s_.team.parallel_for(s_.masses->inverse_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
-    first_half<Real, Method>(h, damping, first, begin, end);
-  });
-  if (!s_.contacts.empty())
-    s_.impulses.first_half_step(s_.contacts, s_.last_valid.time, time_after,
-                                Method::damping_divisor(static_cast<double>(h), s_.setup->solver.damping),
-                                s_.masses->inverse, s_.last_valid.x.data(), s.x.data(), s.v.data());
-  s.time = time_after;
-  s_.move_constrained(true);
+  begin_bearable_step<Method>(h, time_after);
   if (s_.has_internal_state) s_.body.begin_step(h);
   if (!s_.evaluate_forces()) return restore_last_valid(s_, StopReason::Cause::out_of_range);
   // Ten times the size of the body in a step, or NaN: the step was unstable.
@@ -148,6 +163,50 @@ std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_a
   }
   ++s_.steps;
   return std::nullopt;
+}
+
+/// The first half: positions and velocities up to the forces.
+template <class Real>
+template <class Method>
+void ExplicitStepper<Real>::begin_step(Real h, double time_after) {
+  State<Real>& s = s_.state;
+  const Real damping = static_cast<Real>(s_.setup->solver.damping);
+  const Real* inverse_mass_per_dof = s_.masses->inverse_per_dof.data();
+  const FirstHalfStep<Real> first{inverse_mass_per_dof,   s.f.data(), s_.last_valid.x.data(),
+                                  s_.last_valid.v.data(), s.x.data(), s.v.data()};
+  s_.team.parallel_for(s_.masses->inverse_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+    first_half<Real, Method>(h, damping, first, begin, end);
+  });
+  if (!s_.contacts.empty())
+    s_.impulses.first_half_step(s_.contacts, s_.last_valid.time, time_after,
+                                Method::damping_divisor(static_cast<double>(h), s_.setup->solver.damping),
+                                s_.masses->inverse, s_.last_valid.x.data(), s.x.data(), s.v.data());
+  s.time = time_after;
+  s_.move_constrained(true);
+}
+
+/// The same, half as long until it deforms no element too much (step_strain.hpp).
+template <class Real>
+template <class Method>
+void ExplicitStepper<Real>::begin_bearable_step(Real& h, double time_after) {
+  const bool has_contacts = !s_.contacts.empty(), is_checked = checks_strain();
+  if (is_checked && has_contacts) s_.impulses.keep(s_.contacts, before_);
+  begin_step<Method>(h, time_after);
+  s_.limit.of_strain *= 1 + growth_after_strain;
+  if (!is_checked) return;
+  const bool with_small = s_.limit.steps_to_strain <= 1;
+  for (const Real shortest = h * static_cast<Real>(shortest_of_step);;) {
+    touched_.clear();
+    if (has_contacts) s_.impulses.list_nodes(touched_);
+    strain_.adopt(*s_.model, *s_.topology, s_.setup->solver.continuation);
+    const double strain = strain_.largest(touched_, with_small, s_.last_valid.x.data(), s_.state.x.data());
+    const int calm = steps_until_strain(strain);
+    s_.limit.steps_to_strain = with_small ? calm : std::min(calm, s_.limit.steps_to_strain - 1);
+    if (!(strain > max_step_strain) || h <= shortest) return;
+    h /= 2;
+    shorten(static_cast<double>(h));
+    begin_step<Method>(h, s_.last_valid.time + static_cast<double>(h));
+  }
 }
 
 template class ExplicitStepper<float>;

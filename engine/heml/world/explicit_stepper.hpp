@@ -1,6 +1,7 @@
 #pragma once
 // Steps of the explicit methods (dynamics/integrator_list.hpp).
 #include <heml/world/simulation.hpp>
+#include <heml/world/step_strain.hpp>
 #include <heml/world/thread_trial.hpp>
 #include <limits>
 
@@ -20,10 +21,20 @@ class ExplicitStepper {
   std::optional<StopReason> step(Real h, double time_after);
   template <class Method>
   std::optional<StopReason> step_with(Real h, double time_after);
+  template <class Method>
+  void begin_step(Real h, double time_after);
+  template <class Method>
+  void begin_bearable_step(Real& h, double time_after);
+  bool checks_strain() const;
+  bool may_try_shorter(const StopReason& failure, double h);
+  void shorten(double h);
   std::string why_no_step() const;
 
   Simulation<Real>& s_;
   ThreadTrial trial_;
+  StepStrain<Real> strain_;
+  typename ContactImpulses<Real>::Record before_;  ///< of the step's start
+  std::vector<int> touched_;                       ///< nodes of contacts
 };
 
 }  // namespace heml

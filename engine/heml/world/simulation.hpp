@@ -36,6 +36,9 @@ struct StepLimit {
   double at_start = 0;        ///< s, at the start or the last Reset
   int steps_since_bound = 0;  ///< steps since the frequency bound was evaluated
   int interval = 0;           ///< steps until it is evaluated again
+  /// s: a step was too long for an element (step_strain.hpp), and later ones grow
+  double of_strain = std::numeric_limits<double>::infinity();
+  int steps_to_strain = 0;    ///< until that of all small elements is looked at again
   std::vector<long> watched;  ///< serial numbers of the grasps near which every element is evaluated each time
 };
 

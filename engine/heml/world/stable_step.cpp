@@ -2,15 +2,15 @@
 #include <cassert>
 #include <cmath>
 #include <heml/world/stable_step.hpp>
+#include <limits>
 
 namespace heml {
 namespace {
 // Of the live limit; the bound is evaluated again every few steps.
 constexpr double safety = 0.9;
-// Of cut tissue: what is left, most of all the smallest pieces, swings by as much as its own size, and the limit
-// changes meanwhile.
+// Of cut or torn tissue: what is left, most of all the smallest pieces, swings by as much as its own size, and the
+// limit changes meanwhile (step_strain.hpp).
 constexpr double safety_of_pieces = 0.7;
-constexpr double safety_of_shreds = 0.5;
 // The limit oscillates with a body that is crushed, lands, or hangs by a corner. Steps that grow in that rhythm feed
 // the oscillation.
 constexpr double growth_of_steps = 0.001;  // per step, at most
@@ -79,10 +79,10 @@ double evaluate_bounds(Simulation<Real>& s, double longest) {
       omega + (s.has_internal_state
                    ? static_cast<double>(body.damping_bound(s.state.x.data(), s.team, s.damping_bounds, steps)) / 2
                    : 0);
-  const bool cut = std::any_of(s.edits.begin(), s.edits.end(),
-                               [](const EditReport& edit) { return edit.split > 0 || edit.removed > 0; });
-  const bool torn = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.torn > 0; });
-  const double part = torn ? safety_of_shreds : cut ? safety_of_pieces : safety;
+  const bool cut = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) {
+    return edit.split > 0 || edit.removed > 0 || edit.torn > 0;
+  });
+  const double part = cut ? safety_of_pieces : safety;
   const double rate = 2 * part / longest;  // what follows inverted, for the bound that `longest` bears
   const auto bearable = static_cast<Real>(longest > 0 ? rate * rate - 2 * rate * half - of_hands : 0);
   const double lambda = of_hands + static_cast<double>(body.frequency_bound(s.state.x.data(), s.team,
@@ -99,6 +99,8 @@ void find_stable_step(Simulation<Real>& s) {
   forget_bounds(s);
   s.limit.stable = s.limit.found = evaluate_bounds(s, 0);
   s.limit.interval = steps_between_bounds_at_first;
+  s.limit.of_strain = std::numeric_limits<double>::infinity();
+  s.limit.steps_to_strain = 0;
 }
 
 template <class Real>
@@ -118,6 +120,11 @@ void update_stable_step(Simulation<Real>& s) {
 }
 
 template <class Real>
+void need_stable_step(Simulation<Real>& s) {
+  s.limit.interval = 1;
+}
+
+template <class Real>
 int steps_until_strained(const Simulation<Real>& s) {
   if (!(s.limit.stable > 0)) return steps_between_bounds_when_driven;
   double fastest = 0;
@@ -130,9 +137,11 @@ int steps_until_strained(const Simulation<Real>& s) {
 
 template void find_stable_step(Simulation<float>& s);
 template void update_stable_step(Simulation<float>& s);
+template void need_stable_step(Simulation<float>& s);
 template int steps_until_strained(const Simulation<float>& s);
 template void find_stable_step(Simulation<double>& s);
 template void update_stable_step(Simulation<double>& s);
+template void need_stable_step(Simulation<double>& s);
 template int steps_until_strained(const Simulation<double>& s);
 
 }  // namespace heml

@@ -15,6 +15,10 @@ void find_stable_step(Simulation<Real>& s);
 template <class Real>
 void update_stable_step(Simulation<Real>& s);
 
+/// Has the bound evaluated before the next step.
+template <class Real>
+void need_stable_step(Simulation<Real>& s);
+
 /// Steps in which the fastest hand or prescribed motion strains the elements next to it by as much as the bound may
 /// change between two evaluations.
 template <class Real>
