@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t coordinate_grain = 3 * 400;
 constexpr double growth_after_strain = 0.05;      // a step, of steps after one that deformed an element too much
-constexpr double shortest_of_step = 1.0 / 1024;   // below it elements may be deformed as they will
+// Of the stable step: in shorter ones elements may be deformed as they will, so that time goes on.
+constexpr double shortest_step = 1.0 / 64;
 constexpr std::size_t cached_coordinates = 2048;  // still in the first-level cache when they are read again
 
 /// Whether |v| ≤ most for all coordinates [begin, end); false where one is NaN.
@@ -84,7 +85,7 @@ bool ExplicitStepper<Real>::checks_strain() const {
 template <class Real>
 bool ExplicitStepper<Real>::may_try_shorter(const StopReason& failure, double h) {
   if (failure.cause != StopReason::Cause::out_of_range || !checks_strain()) return false;
-  if (!(h > s_.limit.stable * shortest_of_step)) return false;
+  if (!(h > shortest_step * s_.limit.stable)) return false;
   shorten(h / 2);
   return true;
 }
@@ -195,14 +196,14 @@ void ExplicitStepper<Real>::begin_bearable_step(Real& h, double time_after) {
   s_.limit.of_strain *= 1 + growth_after_strain;
   if (!is_checked) return;
   const bool with_small = s_.limit.steps_to_strain <= 1;
-  for (const Real shortest = h * static_cast<Real>(shortest_of_step);;) {
+  while (true) {
     touched_.clear();
     if (has_contacts) s_.impulses.list_nodes(touched_);
     strain_.adopt(*s_.model, *s_.topology, s_.setup->solver.continuation);
     const double strain = strain_.largest(touched_, with_small, s_.last_valid.x.data(), s_.state.x.data());
     const int calm = steps_until_strain(strain);
     s_.limit.steps_to_strain = with_small ? calm : std::min(calm, s_.limit.steps_to_strain - 1);
-    if (!(strain > max_step_strain) || h <= shortest) return;
+    if (!(strain > max_step_strain) || static_cast<double>(h) <= shortest_step * s_.limit.stable) return;
     h /= 2;
     shorten(static_cast<double>(h));
     begin_step<Method>(h, s_.last_valid.time + static_cast<double>(h));
