@@ -63,8 +63,8 @@ void ElasticBody<Real>::make_parts() {
   join_parts();
 }
 
-/// The fan kernels run a law unless rest shapes change (plasticity) or it is an expression of stretches. Integration
-/// points have no neighbours to share a fan with.
+/// The fan kernels run a law unless it is an expression of stretches, or its elements both flow and remember stress.
+/// Integration points have no neighbours to share a fan with.
 template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
                                                               const std::vector<int>& elements) const {
@@ -96,7 +96,8 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
       part.flow && material.viscosity == 0 && material.bulk_viscosity == 0 && material.relaxation.empty();
   if (layout_->virtual_corners)
     part.points = point_forces<Real>(of_points, options_.continuation, options_.instruction_set);
-  part.in_fans = !part.terms.empty() && !part.flow && !layout_->virtual_corners && has_fan_kernel(material);
+  part.in_fans = !part.terms.empty() && (!part.flow || part.flows_within_steps) && !layout_->virtual_corners &&
+                 has_fan_kernel(material);
   if (part.in_fans)
     for (const auto& term : part.terms)
       if (auto* memory = dynamic_cast<ViscoelasticTerm<Real>*>(term.get())) memory->leave_state_to_fans();

@@ -303,6 +303,9 @@ class ElasticBody {
   std::vector<FanPart> fan_parts() const;
   std::vector<FanSlots<Real>> fan_slots() const;
   bool pressure_in_fans() const;
+  void flow(const Real* x, bool fans_know);
+  void put_rest_shapes(std::size_t in_fans, const Part& part, std::span<const std::size_t> slots);
+  void put_trial_in_fans();
   void update_slots() const;
   ThreadTeam layout_team() const { return ThreadTeam(layout_->mesh.tets.size() < large_body_ ? 1 : options_.threads); }
   void make_fans();

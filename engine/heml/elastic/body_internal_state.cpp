@@ -41,6 +41,7 @@ std::vector<FanSlots<Real>> ElasticBody<Real>::fan_slots() const {
     FanSlots<Real>& slots = result.emplace_back(FanSlots<Real>{&*part.group, nullptr, 0});
     for (const auto& term : part.terms)
       for (const SlotState<Real>& list : term->slot_states()) slots.values = list.values, slots.each = list.each;
+    slots.flow = part.flow.get();
   }
   return result;
 }
@@ -58,12 +59,35 @@ void ElasticBody<Real>::commit(const Real* x) {
   x = inner_positions(x, y);
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   if (fans_.has_state()) slots_are_old_ = true;
+  const bool fans_know = fans_.is_evaluated_at(x);
   fans_.commit(x);
+  for (Part& part : parts_)
+    if (!part.in_fans)
+      for (const auto& term : part.terms) term->commit(*part.group, x);
+  flow(x, fans_know);
+}
+
+/// Elements flow that are beyond yield at x. fans_know: their forces were evaluated there last, which tells.
+template <class Real>
+void ElasticBody<Real>::flow(const Real* x, bool fans_know) {
+  std::size_t in_fans = 0;
   for (Part& part : parts_) {
-    if (part.in_fans) continue;
-    for (const auto& term : part.terms) term->commit(*part.group, x);
-    if (part.flow) plastic_work_ += part.flow->flow(part.group.write(), x);
+    const std::size_t fans = part.in_fans ? in_fans++ : 0;
+    if (!part.flow) continue;
+    if (!part.in_fans || !fans_know) {
+      plastic_work_ += part.flow->flow(part.group.write(), x);
+    } else if (const std::vector<std::size_t> slots = fans_.beyond_yield(fans); !slots.empty()) {
+      plastic_work_ += part.flow->flow(part.group.write(), x, slots);
+    } else {
+      continue;
+    }
+    if (part.in_fans) put_rest_shapes(fans, part, part.flow->flowed());
   }
+}
+
+template <class Real>
+void ElasticBody<Real>::put_rest_shapes(std::size_t in_fans, const Part& part, std::span<const std::size_t> slots) {
+  fans_.put_rest_shapes(in_fans, {&*part.group, nullptr, 0, part.flow.get()}, slots);
 }
 
 template <class Real>
@@ -78,9 +102,20 @@ void ElasticBody<Real>::begin_flow_trial(const Real* x, ThreadTeam& team) {
   for (Part& part : parts_) {
     if (!part.flows_within_steps) continue;
     auto& group = part.group.write();
-    if (part.flow->begin_trial(group, {x, 3 * layout_->mesh.nodes.size()})) continue;
-    team.parallel_for(group.packets(), grain_ / 4 / group.lanes,
-                      [&](std::size_t begin, std::size_t end) { part.flow->try_flow(group, x, begin, end); });
+    if (!part.flow->begin_trial(group, {x, 3 * layout_->mesh.nodes.size()}))
+      team.parallel_for(group.packets(), grain_ / 4 / group.lanes,
+                        [&](std::size_t begin, std::size_t end) { part.flow->try_flow(group, x, begin, end); });
+  }
+  put_trial_in_fans();
+}
+
+/// After rest shapes have become those of a trial, or are no longer.
+template <class Real>
+void ElasticBody<Real>::put_trial_in_fans() {
+  std::size_t in_fans = 0;
+  for (const Part& part : parts_) {
+    const std::size_t fans = part.in_fans ? in_fans++ : 0;
+    if (part.in_fans && part.flow) put_rest_shapes(fans, part, part.flow->trial_slots());
   }
 }
 
@@ -88,6 +123,7 @@ template <class Real>
 void ElasticBody<Real>::end_flow_trial() {
   for (Part& part : parts_)
     if (part.flows_within_steps) part.flow->end_trial(part.group.write());
+  if (flows_within_steps()) put_trial_in_fans();
 }
 
 template <class Real>
@@ -191,6 +227,12 @@ template void ElasticBody<float>::commit(const float*);
 template void ElasticBody<double>::commit(const double*);
 template bool ElasticBody<float>::flows_within_steps() const;
 template bool ElasticBody<double>::flows_within_steps() const;
+template void ElasticBody<float>::flow(const float*, bool);
+template void ElasticBody<double>::flow(const double*, bool);
+template void ElasticBody<float>::put_rest_shapes(std::size_t, const Part&, std::span<const std::size_t>);
+template void ElasticBody<double>::put_rest_shapes(std::size_t, const Part&, std::span<const std::size_t>);
+template void ElasticBody<float>::put_trial_in_fans();
+template void ElasticBody<double>::put_trial_in_fans();
 template void ElasticBody<float>::begin_flow_trial(const float*, ThreadTeam&);
 template void ElasticBody<double>::begin_flow_trial(const double*, ThreadTeam&);
 template void ElasticBody<float>::end_flow_trial();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <cstring>
@@ -78,6 +79,7 @@ void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law
     terms.zeta = static_cast<Real>(material.bulk_viscosity);
     if (terms.eta > 0 || terms.zeta > 0) terms.viscous_state = 6;
     law.relaxation = material.relaxation;
+    terms.flows = material.plasticity.has_value();
     const bool relaxes = !law.relaxation.empty();
     terms.state = terms.viscous_state + (relaxes ? 6 * (1 + law.relaxation.size()) : 0);
     if (info.has_volume_term && (relaxes || material.volume_term != VolumeTerm::quadratic)) {
@@ -89,7 +91,10 @@ void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law
   }
   law.takes_pressure = part.nodal_pressure;
   if (part.nodal_pressure) terms.volume = FanVolume::none;
-  if (terms.state == 0 && terms.volume == FanVolume::none && !law.takes_pressure && law.parameters.empty()) return;
+  assert(!terms.flows || terms.state == 0);
+  if (terms.state == 0 && terms.volume == FanVolume::none && !law.takes_pressure && law.parameters.empty() &&
+      !terms.flows)
+    return;
   terms.is_principal = law.shape == FanShape::principal;
   terms.is_continued = continuation;
   const FanTermKernels<Real> kernels = fan_term_kernels<Real>(isa_);
@@ -190,8 +195,8 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
   assert(!needs_state());
   const FanLayout<Real>& fans = *layout_;
   const std::vector<FanTerms<Real>> terms = terms_of_parts(pressure);
-  if (has_state()) {
-    state_.make_next();
+  if (has_state()) state_.make_next();
+  if (has_state() || has_flow()) {
     evaluated_x_.assign(x, x + 3 * nodes_);
     evaluated_ = true;
   }
@@ -202,10 +207,11 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
       const std::size_t part = fans.blocks[b].part;
       const Law& law = laws_[part];
       const FanBlock<Real> block = block_at(b, 3);
-      const bool remembers = law.terms.state > 0;
+      const bool remembers = law.terms.state > 0, flows = law.terms.flows;
+      const Real* state = flows ? flow_.shape(b) : remembers ? state_.now(b) : nullptr;
+      Real* next = flows ? flow_.beyond_of(b) : remembers ? state_.next(b) : nullptr;
       const bool defined = law.term_kernel
-                               ? law.term_kernel(law.law.get(), block, terms[part], remembers ? state_.now(b) : nullptr,
-                                                 remembers ? state_.next(b) : nullptr, x, f)
+                               ? law.term_kernel(law.law.get(), block, terms[part], state, next, x, f)
                                : law.kernel(law.law.get(), block, x, f);
       if (!defined) valid.store(false, std::memory_order_relaxed);
     }
@@ -233,8 +239,27 @@ bool FanForces<Real>::has_state() const {
 }
 
 template <class Real>
+bool FanForces<Real>::has_flow() const {
+  return std::any_of(laws_.begin(), laws_.end(), [](const Law& law) { return law.terms.flows; });
+}
+
+template <class Real>
 void FanForces<Real>::read_state(const std::vector<FanSlots<Real>>& slots) {
-  state_.read(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots);
+  if (has_state() && !state_.is_known()) state_.read(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots);
+  if (has_flow() && !flow_.is_known()) flow_.read(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots);
+  evaluated_ = false;
+}
+
+template <class Real>
+bool FanForces<Real>::is_evaluated_at(const Real* x) const {
+  return evaluated_ && std::memcmp(evaluated_x_.data(), x, sizeof(Real) * 3 * nodes_) == 0;
+}
+
+template <class Real>
+void FanForces<Real>::put_rest_shapes(std::size_t part, const FanSlots<Real>& of_part,
+                                      std::span<const std::size_t> slots) {
+  if (slots.empty() || !flow_.is_known()) return;
+  flow_.put(*layout_, lanes_of<Real>(isa_), part, of_part, slots);
   evaluated_ = false;
 }
 
@@ -267,7 +292,7 @@ template <class Real>
 void FanForces<Real>::commit(const Real* x) {
   if (!has_state()) return;
   assert(!needs_state());
-  if (!evaluated_ || std::memcmp(evaluated_x_.data(), x, sizeof(Real) * 3 * nodes_) != 0) {
+  if (!is_evaluated_at(x)) {
     ThreadTeam alone(1);
     std::vector<Real> unused(3 * nodes_);
     forces(x, unused.data(), alone);
@@ -279,6 +304,7 @@ void FanForces<Real>::commit(const Real* x) {
 template <class Real>
 void FanForces<Real>::drop_scratch() {
   state_.drop_next();
+  flow_.forget();
   evaluated_x_ = {};
   shared_force_ = {};
   evaluated_ = false;
@@ -288,7 +314,7 @@ template <class Real>
 std::size_t FanForces<Real>::bytes() const {
   const FanLayout<Real>& fans = *layout_;
   return bytes_of(fans.blocks, fans.size, fans.index, fans.shape, fans.element, shared_force_, evaluated_x_) +
-         fans.nodes.bytes() + state_.bytes();
+         fans.nodes.bytes() + state_.bytes() + flow_.bytes();
 }
 
 template class FanForces<float>;

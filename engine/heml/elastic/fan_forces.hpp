@@ -3,6 +3,7 @@
 // law, or by the one of its law and further terms or parameters that differ (elastic/fan_terms.hpp). Blocks write the
 // forces of their own nodes, and those of shared nodes are summed (elastic/node_blocks.hpp).
 #include <heml/base/thread_team.hpp>
+#include <heml/elastic/fan_flow.hpp>
 #include <heml/elastic/fan_kernels.hpp>
 #include <heml/elastic/fan_layout.hpp>
 #include <heml/elastic/fan_state.hpp>
@@ -18,7 +19,7 @@ struct FanPart {
   const std::vector<int>* elements;
   const Material* material;
   bool isochoric = false;       ///< without the volume term of the law, which must have one
-  bool has_terms = false;       ///< with the material's viscosity, relaxation and volume term
+  bool has_terms = false;       ///< with the material's viscosity, relaxation, plastic flow and volume term
   bool nodal_pressure = false;  ///< forces() takes pressures in place of the volume term
 };
 
@@ -50,9 +51,9 @@ class FanForces {
 
   // Internal state of parts with terms; as those of ElasticBody.
   bool has_state() const;
-  /// Whether read_state() must come before forces() or commit().
-  bool needs_state() const { return has_state() && !state_.is_known(); }
-  void forget_state() { state_.forget(), evaluated_ = false; }
+  /// Whether read_state(), which reads what is not known, must come before forces() or commit().
+  bool needs_state() const { return (has_state() && !state_.is_known()) || (has_flow() && !flow_.is_known()); }
+  void forget_state() { state_.forget(), flow_.forget(), evaluated_ = false; }
   void read_state(const std::vector<FanSlots<Real>>& slots);
   void write_state(const std::vector<FanSlots<Real>>& slots) const;
   /// Upper bound of ω² from stress that the state holds, 1/s².
@@ -60,13 +61,23 @@ class FanForces {
   void begin_step(Real h);
   /// Costs nothing where forces() were evaluated at this x last.
   void commit(const Real* x);
+
+  // Plastic flow of parts with terms.
+  /// Whether forces() were evaluated at this x last, with the rest shapes of now, so that beyond_yield() holds.
+  bool is_evaluated_at(const Real* x) const;
+  /// The slots of a part that may flow, ascending: all others do not.
+  std::vector<std::size_t> beyond_yield(std::size_t part) const { return flow_.beyond(*layout_, part); }
+  /// Slots of a part have other rest shapes.
+  void put_rest_shapes(std::size_t part, const FanSlots<Real>& of_part, std::span<const std::size_t> slots);
   /// Frees what the next evaluation writes again.
   void drop_scratch();
 
   InstructionSet instruction_set() const { return isa_; }
   /// Of the elements of one part: layout, and state that is read and written.
   double bytes_per_tet(std::size_t part = 0) const {
-    return layout_->bytes_per_tet() + static_cast<double>(2 * sizeof(Real) * laws_[part].terms.state);
+    const FanTerms<Real>& terms = laws_[part].terms;
+    return layout_->bytes_per_tet() +
+           static_cast<double>(sizeof(Real) * (2 * terms.state + (terms.flows ? fan_flow_numbers + 1 : 0)));
   }
   /// Size of all arrays, in bytes.
   std::size_t bytes() const;
@@ -93,15 +104,17 @@ class FanForces {
   std::vector<FanTerms<Real>> terms_of_parts(const Real* pressure = nullptr) const;
   FanBlock<Real> block_at(std::size_t b, std::size_t numbers);
   std::size_t blocks_a_thread() const;
+  bool has_flow() const;
 
   InstructionSet isa_ = InstructionSet::portable;
   std::shared_ptr<const FanLayout<Real>> layout_ = std::make_shared<const FanLayout<Real>>();  ///< shared by copies
   std::vector<Law> laws_;                                                                      ///< of each part
   std::vector<Real> shared_force_;  ///< 3 a shared slot, scratch of forces()
   FanState<Real> state_;
+  FanFlow<Real> flow_;
   std::size_t nodes_ = 0;          ///< of the mesh
   Real step_ = 0;                  ///< s, of the last begin_step()
-  std::vector<Real> evaluated_x_;  ///< where forces() wrote the next state
+  std::vector<Real> evaluated_x_;  ///< where forces() wrote the next state, or what is beyond yield
   bool evaluated_ = false;         ///< whether it did, in this step
 };
 

@@ -2,14 +2,12 @@
 // Internal state of the elements in fans (viscosity, relaxation), in the layout that their kernels read and write
 // (elastic/fan_terms.hpp): once at the last commit, once after the step that is being evaluated. Stiffness, energies,
 // edits and snapshots know the state by slot (elastic/viscoelastic_term.hpp); read() and write() convert.
-//
-// With e1, e2, e3 the edges of an element and M the edges a, b0, b1 of its fan in them, G in a fan is MᵀGM, and a
-// tension is −M⁻¹TM⁻ᵀ.
-#include <heml/elastic/element_group.hpp>
-#include <heml/elastic/fan_layout.hpp>
-#include <heml/elastic/fan_terms.hpp>
+#include <heml/elastic/fan_places.hpp>
 
 namespace heml {
+
+template <class Real>
+class PlasticFlow;
 
 /// The state of one part by slot: `each` numbers a slot, G0 T0 Q of branch 0 …, padding included.
 template <class Real>
@@ -17,7 +15,15 @@ struct FanSlots {
   const ElementGroup<Real>* group;
   std::vector<Real>* values;  ///< null: the part has no state
   std::size_t each;
+  const PlasticFlow<Real>* flow = nullptr;  ///< of the elements that flow in fans (fan_flow.hpp)
 };
+
+template <class Real>
+std::vector<const ElementGroup<Real>*> groups_of(const std::vector<FanSlots<Real>>& slots) {
+  std::vector<const ElementGroup<Real>*> groups;
+  for (const FanSlots<Real>& part : slots) groups.push_back(part.group);
+  return groups;
+}
 
 template <class Real>
 class FanState {
@@ -49,21 +55,14 @@ class FanState {
   std::size_t bytes() const;
 
  private:
-  /// An element in a fan: its slot, −1 in a lane without a fan, and which of its corners are p, q, r_i, r_i+1.
-  struct Place {
-    int slot = -1;
-    std::array<std::uint8_t, 4> corner = {};
-  };
-  void find_places(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanSlots<Real>>& slots);
   template <class Visit>
   void each_element(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
                     const Visit& visit) const;
 
   bool is_known_ = false;
   std::vector<Real, CacheAligned<Real>> now_, next_;
-  std::vector<std::size_t> start_;        ///< of each block in now_
-  std::vector<Place> places_;             ///< [group][tetrahedron][lane]
-  std::vector<std::size_t> place_start_;  ///< of each block in places_
+  std::vector<std::size_t> start_;  ///< of each block in now_
+  FanPlaces places_;
 };
 
 }  // namespace heml

@@ -2,6 +2,7 @@
 // The kernels of elastic/fan_terms.hpp. Stages that no law decides are compiled once for each instruction set and
 // scalar, so that a law adds its tensions alone to the code.
 #include <heml/elastic/fan_energy.hpp>
+#include <heml/elastic/fan_flow_tensions.hpp>
 #include <heml/elastic/fan_force_kernel.hpp>
 #include <heml/elastic/fan_term_kernels.hpp>
 #include <heml/materials/volume.hpp>
@@ -21,11 +22,14 @@ struct TermStages {
   using Group = typename Stages::Group;
   static constexpr std::size_t lanes = P::lanes;
 
-  /// Writes the tensions of a law into work.tensions [1 .. m]. Parameters that differ are set in the law.
-  using LawTensions = void (*)(void* law, const FanTerms<Real>& terms, const Group& group, Work& work, Mask<P>& valid);
+  /// Writes the tensions of a law into work.tensions [1 .. m]. Parameters that differ are set in the law. shape, beyond:
+  /// of elements that flow.
+  using LawTensions = void (*)(void* law, const FanTerms<Real>& terms, const Group& group, const Real* shape,
+                               Real* beyond, Work& work, Mask<P>& valid);
 
   template <class L>
-  static void law_tensions(void* of_part, const FanTerms<Real>& terms, const Group& group, Work& work, Mask<P>& valid) {
+  static void law_tensions(void* of_part, const FanTerms<Real>& terms, const Group& group, const Real*, Real*,
+                           Work& work, Mask<P>& valid) {
     constexpr std::size_t of_shape = fan_constants(L::uses_I4);
     L& law = *static_cast<L*>(of_part);
     const Real* constant = group.rest;
@@ -35,6 +39,25 @@ struct TermStages {
       FanTensions<P> t = fan_tensions<P>(law, rest, gram(group, work, i), rest.k * six_volumes(work, i), valid);
       if constexpr (!has_coupling<L, P>) t.a0 = t.a1 = P(0);
       if constexpr (!L::uses_J) t.u = P(0);
+      work.tensions[i] = t;
+    }
+  }
+
+  template <class L>
+  static void flowed_law_tensions(void* of_part, const FanTerms<Real>& terms, const Group& group, const Real* shape,
+                                  Real* beyond, Work& work, Mask<P>& valid) {
+    L& law = *static_cast<L*>(of_part);
+    const Real* constant = group.rest;
+    for (std::size_t i = 1; i <= group.m; ++i, constant += terms.constants * lanes, beyond += lanes) {
+      if constexpr (std::size(L::parameters) > 0) read_parameters(terms, constant + fan_constants(false) * lanes, law);
+      const P k = pack_at<P>(constant + 4 * lanes);
+      P A[6];
+      for (std::size_t c = 0; c < 6; ++c, shape += lanes) A[c] = pack_at<P>(shape);
+      const P limit = pack_at<P>(shape);
+      shape += lanes;
+      const FanGram<P> G = gram(group, work, i);
+      const FanTensions<P> t = flowed_tensions<P>(law, A, k, G, k * six_volumes(work, i), valid);
+      put(beyond, select(mises_measure(t, G, k) < limit, P(0), P(1)));  // 1 where it is no number
       work.tensions[i] = t;
     }
   }
@@ -197,6 +220,7 @@ struct TermStages {
       for (std::size_t n = 0; n < block.nodes; ++n) records[8 * n + 3] = terms.pressure[block.place[n] / 3];
     const std::uint16_t* index = block.index;
     const Real* shape = block.shape;
+    const std::size_t reads = terms.flows ? fan_flow_numbers : terms.state, writes = terms.flows ? 1 : terms.state;
     Mask<P> valid = true;
     Work work;
     for (Spoke<P>& spoke : work.spoke) spoke = {};
@@ -204,7 +228,7 @@ struct TermStages {
       const FanSize size = block.size[g];
       Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
       Stages::read_group(group, index, records, work);
-      tensions(law, terms, group, work, valid);
+      tensions(law, terms, group, state, next, work, valid);
       add_terms(terms, group, work, state, next, records, index, valid);
       P axis = 0;
       for (std::size_t i = 1; i <= group.m; ++i) axis += work.tensions[i].aa;
@@ -212,7 +236,7 @@ struct TermStages {
       Stages::add_forces(group, index, axis, work, records);
       index += (2 + size.ring) * lanes;
       shape += (size.ring + size.tets * terms.constants) * lanes;
-      state += size.tets * terms.state * lanes, next += size.tets * terms.state * lanes;
+      state += size.tets * reads * lanes, next += size.tets * writes * lanes;
     }
     write_forces<Isa>(block, records + 4, f);
     return valid.all();
@@ -259,7 +283,10 @@ FanTermKernel<Real> term_kernel(std::size_t law, bool continued) {
     kernel = [](const void* scalar, const FanBlock<Real>& block, const FanTerms<Real>& terms, const Real* state,
                 Real* next, const Real* x, Real* f) {
       Many many = broadcast<Many, P>(*static_cast<const One*>(scalar));
-      return Stages::block(&Stages::template law_tensions<Many>, &many, block, terms, state, next, x, f);
+      typename Stages::LawTensions tensions = &Stages::template law_tensions<Many>;
+      if constexpr (Many::has_volume_term && !Many::uses_I4)
+        if (terms.flows) tensions = &Stages::template flowed_law_tensions<Many>;
+      return Stages::block(tensions, &many, block, terms, state, next, x, f);
     };
   });
   return kernel;

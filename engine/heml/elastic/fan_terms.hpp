@@ -12,6 +12,9 @@
 // The six numbers are of the edges a, b0, b1 of elastic/fan_block.hpp, as aa 00 11 a0 a1 01; tensions have the reversed
 // sign of the kernels.
 //
+// Rest shapes that plastic flow changes (elastic/fan_flow.hpp) take the place of the state, and what is beyond yield that
+// of the next state: such materials have no other memory.
+//
 // Parameters that differ between elements are read before the tensions of each tetrahedron, from behind the constants
 // of its rest shape (elastic/fan_block.hpp). Only kernels with terms do that.
 //
@@ -33,9 +36,13 @@ struct FanBranch {
 /// A volume term that the law does not have: none, κ/2 (J−1)², or those of VolumeLaw.
 enum class FanVolume { none, quadratic, logarithmic, simo_taylor };
 
+/// Numbers a tetrahedron of elastic/fan_flow.hpp.
+constexpr std::size_t fan_flow_numbers = 7;
+
 /// The volume modulus κ, if it differs between elements, is not one of the law's where a volume term takes it.
 template <class Real>
 struct FanTerms {
+  bool flows = false;         ///< rest shapes are those of elastic/fan_flow.hpp; then state is 0
   bool is_principal = false;  ///< the constants of the rest shape are those of a law of principal stretches
   std::size_t constants = 0;  ///< a tetrahedron, with the parameters that differ
   const std::size_t* parameters = nullptr;  ///< which of the law's each of those is; not_of_the_law: none
@@ -55,8 +62,8 @@ struct FanTerms {
   const Real* pressure = nullptr;  ///< Pa, of every node; null without averaged nodal pressure
 };
 
-/// As FanKernel, for the law and these terms. `state`: of the block; `next`: state after the step, overwritten. The law
-/// has no volume term where `terms` has one or a pressure.
+/// As FanKernel, for the law and these terms. `state`: of the block; `next`: state after the step, overwritten; of
+/// elements that flow, FanFlow::shape() and beyond_of(). The law has no volume term where `terms` has one or a pressure.
 template <class Real>
 using FanTermKernel = bool (*)(const void* law, const FanBlock<Real>& block, const FanTerms<Real>& terms,
                                const Real* state, Real* next, const Real* x, Real* f);

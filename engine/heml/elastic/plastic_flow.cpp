@@ -63,20 +63,46 @@ PlasticFlow<Real>::PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plast
       rest_A_(group.A),
       strain_(group.volume.size(), 0) {}
 
+/// Returns the plastic work, J; padding does none.
+template <class Real>
+double PlasticFlow<Real>::add_flow(Group& group, std::size_t s, const Yielding& yielding) {
+  Real A[6];
+  strain_[s] += yielding.flow.equivalent_strain();
+  yielding.rest_A(A);
+  put_rest_shape(group, s, A);
+  flowed_.push_back(s);
+  return s < group.size() ? static_cast<double>(group.volume[s]) * yielding.flow.work() : 0.0;
+}
+
 template <class Real>
 double PlasticFlow<Real>::flow(Group& group, const Real* x) {
   double work = 0;
-  Real A[6];
   forget_trial();
+  flowed_.clear();
   stress_bounds_.resize(group.volume.size());
-  each_yielding(group, x, 0, group.packets(), [&](std::size_t s, const Yielding& yielding) {
-    strain_[s] += yielding.flow.equivalent_strain();
-    yielding.rest_A(A);
-    put_rest_shape(group, s, A);
-    if (s < group.size())
-      work += static_cast<double>(group.volume[s]) * yielding.flow.work();  // padding does not count
-  });
+  each_yielding(group, x, 0, group.packets(),
+                [&](std::size_t s, const Yielding& yielding) { work += add_flow(group, s, yielding); });
   return work;
+}
+
+template <class Real>
+double PlasticFlow<Real>::flow(Group& group, const Real* x, std::span<const std::size_t> slots) {
+  double work = 0;
+  forget_trial();
+  flowed_.clear();
+  const auto flow_at = [&](std::size_t s) {
+    Yielding yielding;
+    if (find_flow(group, x, s, rest_shape(group, s), yielding)) work += add_flow(group, s, yielding);
+  };
+  for (const std::size_t s : slots) flow_at(s);
+  const bool has_last = !slots.empty() && slots.back() + 1 == group.size();
+  for (std::size_t s = group.size(); has_last && s < group.volume.size(); ++s) flow_at(s);  // padding repeats it
+  return work;
+}
+
+template <class Real>
+Real PlasticFlow<Real>::least_stress_of_flow(std::size_t s) const {
+  return Real(surely_below) * flow_stress(s).at_start;
 }
 
 template <class Real>
@@ -101,6 +127,14 @@ void PlasticFlow<Real>::try_flow(Group& group, const Real* x, std::size_t begin,
     yielding.rest_A(A);
     for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = A[i];
   });
+}
+
+template <class Real>
+std::vector<std::size_t> PlasticFlow<Real>::trial_slots() const {
+  std::vector<std::size_t> slots;
+  for (std::size_t s = 0; s < trial_strain_.size(); ++s)
+    if (trial_strain_[s] != 0) slots.push_back(s);
+  return slots;
 }
 
 template <class Real>
@@ -193,7 +227,7 @@ void PlasticFlow<Real>::each_yielding(const Group& group, const Real* x, std::si
                                       const Visit& visit) {
   law_->mises_bounds(group, x, begin, end, stress_bounds_.data() + begin * Group::lanes);
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
-    if (stress_bounds_[s] < Real(surely_below) * flow_stress(s).at_start) continue;
+    if (stress_bounds_[s] < least_stress_of_flow(s)) continue;
     Yielding yielding;
     if (find_flow(group, x, s, rest_shape(group, s), yielding)) visit(s, yielding);
   }

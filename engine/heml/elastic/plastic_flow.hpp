@@ -1,6 +1,7 @@
 #pragma once
 // Finite-strain multiplicative plasticity, F = Fe Fp with det Fp = 1. In tension form it changes the rest shape only:
-// the elastic law of Fe sees C through A = Dm⁻¹ Fp⁻¹ Fp⁻ᵀ Dm⁻ᵀ, so the force loops stay as they are. A return mapping
+// the elastic law of Fe sees C through A = Dm⁻¹ Fp⁻¹ Fp⁻ᵀ Dm⁻ᵀ, so the force loops stay as they are; fans have a copy of
+// A (fan_flow.hpp), and their kernels find what is beyond yield. A return mapping
 // (return_mapping.hpp) changes the A of elements beyond yield (exponential map, principal axes fixed; Simo 1992), until
 // the von Mises Kirchhoff stress equals yield + hardening · (equivalent plastic strain).
 //
@@ -28,6 +29,12 @@ class PlasticFlow {
 
   /// Return mapping at positions x (3 #V, m): updates A of elements beyond yield. Returns the plastic work, J.
   double flow(Group& group, const Real* x);
+  /// The same of slots that may be, ascending, where all others are not.
+  double flow(Group& group, const Real* x, std::span<const std::size_t> slots);
+  /// The slots whose A the last flow() changed, ascending.
+  const std::vector<std::size_t>& flowed() const { return flowed_; }
+  /// The von Mises stress below which a slot does not flow, however its stress was rounded, Pa.
+  Real least_stress_of_flow(std::size_t s) const;
 
   // A trial: begin_trial(), try_flow() of all packets, evaluations, end_trial(). Threads may call the functions of
   // packets [begin, end) on disjoint ranges.
@@ -35,6 +42,8 @@ class PlasticFlow {
   bool begin_trial(Group& group, std::span<const Real> x);
   /// Gives elements beyond yield the A that flow() would.
   void try_flow(Group& group, const Real* x, std::size_t begin, std::size_t end);
+  /// The slots that flow in the trial, ascending.
+  std::vector<std::size_t> trial_slots() const;
   /// What flow adds to the potential, J: Φ of return_mapping.hpp less W. 0 outside a trial.
   double trial_potential(const Group& group) const;
   /// Adds to the stiffness of elements (edge_stiffness.hpp) that they flow as x changes. Outside a trial nothing.
@@ -56,7 +65,9 @@ class PlasticFlow {
                       const std::vector<SubelementMap<Real>>& subelement_maps, Group& group);
   /// The lists of internal state: the plastic strain, and A of the group.
   SlotStates<Real> slot_states(Group& group);
-  std::size_t bytes() const { return bytes_of(rest_A_, strain_, stress_bounds_, trial_x_, trial_strain_, other_A_); }
+  std::size_t bytes() const {
+    return bytes_of(rest_A_, strain_, stress_bounds_, flowed_, trial_x_, trial_strain_, other_A_);
+  }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 
  private:
@@ -72,6 +83,7 @@ class PlasticFlow {
   /// Returns whether the slot flows.
   bool find_flow(const Group& group, const Real* x, std::size_t s, const RestShape<Real>& rest,
                  Yielding& yielding) const;
+  double add_flow(Group& group, std::size_t s, const Yielding& yielding);
   template <class Visit>
   void each_yielding(const Group& group, const Real* x, std::size_t begin, std::size_t end, const Visit& visit);
 
@@ -80,6 +92,7 @@ class PlasticFlow {
   std::array<std::vector<Real>, 6> rest_A_;
   std::vector<Real> strain_;
   std::vector<Real> stress_bounds_;  ///< scratch
+  std::vector<std::size_t> flowed_;
   // Of the last trial: where it was, the equivalent strain that flows, 0 where none does, and A there; while it lasts
   // the group has these A, and other_A_ those of the state.
   std::vector<Real> trial_x_, trial_strain_;

@@ -332,6 +332,8 @@ TEST_CASE("a body names the kernels of a law alone and with further terms") {
   for (const Material& material : {viscous, relaxing, other_volume})
     CHECK(forces(material, false, "fans") != run(fans, x, 1));
   CHECK(forces(plain, true, "fans") != run(fans, x, 1));
+  forces(plastic, false, "fans");
+  plastic.viscosity = 3;
   forces(plastic, false, "corners");
 
   // A law without its volume term equals the law with κ = 0.

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/elastic/fan_forces.hpp>
+#include <heml/elastic/plastic_flow.hpp>
 #include <heml/materials/parameter_slots.hpp>
 
 #include "small_body.hpp"
@@ -32,6 +33,7 @@ class LoopBody {
     std::vector<int> elements;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) elements.push_back(static_cast<int>(t));
     group_ = make_group<double>(mesh, elements, material);
+    flow_ = make_flow<double>(material, continuation, group_);
     corners_ = map_corners<double>({&group_}, mesh.nodes.size());
     std::vector<double> rest;
     for (const Vec3& X : mesh.nodes) rest.insert(rest.end(), {X.x(), X.y(), X.z()});
@@ -47,7 +49,9 @@ class LoopBody {
   }
   void commit(const std::vector<double>& x) {
     for (const auto& term : terms_) term->commit(group_, x.data());
+    if (flow_) plastic_work_ += flow_->flow(group_, x.data());
   }
+  double plastic_work() const { return plastic_work_; }
   std::vector<double> forces(const std::vector<double>& x) {
     std::vector<double> corner(12 * group_.volume.size()), f(x.size());
     ThreadTeam alone(1);
@@ -64,6 +68,8 @@ class LoopBody {
   CornerMap corners_;
   std::vector<std::unique_ptr<GroupTerm<double>>> terms_;
   std::unique_ptr<NodalPressure<double>> pressure_;
+  std::unique_ptr<PlasticFlow<double>> flow_;
+  double plastic_work_ = 0;
 };
 
 template <class Real>
@@ -140,6 +146,41 @@ void check_kernels(InstructionSet isa, double tolerance, bool varying = false) {
   }
 }
 
+Material flowing(std::string_view law, double yield) {
+  Material material = sample_material(law);
+  material.plasticity = Plasticity{yield, 40};
+  return material;
+}
+
+/// Steps with more and more strain, of which the yields let no element flow, some, or all.
+template <class Real>
+void check_flow(InstructionSet isa, double tolerance, const Material& plain, bool nodal_pressure = false) {
+  std::mt19937_64 random(67);
+  TetMesh mesh = irregular_box(random, {3, 2, 2});
+  const std::vector<int> one_material(mesh.tets.size(), 0);
+  for (const double yield : {1e6, 150.0, 5.0})
+    for (const bool varying : {false, true}) {
+      Material material = plain;
+      material.plasticity = Plasticity{yield, 40};
+      if (varying) vary_parameters(material, mesh, random);
+      CAPTURE(material.law);
+      CAPTURE(std::string(name_of(isa)));
+      CAPTURE(yield);
+      ElasticBody<Real> body(mesh, one_material, {material}, {true, nodal_pressure, isa});
+      CHECK(body.kernels().front().kernel == "fans");
+      LoopBody loops(mesh, material, true, nodal_pressure);
+      for (const double stretch : {1.02, 1.1, 1.25, 1.2, 0.9}) {
+        const auto x = moved(mesh, random, 0.03, Vec3(stretch, 1, 1 / stretch).asDiagonal());
+        CHECK(difference(forces_of(body, x), loops.forces(x)) <= tolerance);
+        commit(body, x);
+        loops.commit(x);
+        CHECK(difference(forces_of(body, x), loops.forces(x)) <= tolerance);
+        CHECK(std::abs(body.plastic_work() - loops.plastic_work()) <= tolerance * loops.plastic_work());
+      }
+      CHECK((body.plastic_work() > 0) == (yield < 1e6));
+    }
+}
+
 Material remembering() {
   Material material = sample_material("mooney_rivlin");
   material.viscosity = 2;
@@ -162,6 +203,51 @@ TEST_CASE("kernels of parameters that differ between elements give the forces of
     check_kernels<double>(isa, 1e-12, true);
     check_kernels<float>(isa, 1e-4, true);
   }
+}
+
+TEST_CASE("kernels of elements that flow give the forces of the loops, after flow too, any law") {
+  for (const InstructionSet isa : instruction_sets())
+    for (const LawInfo& law : laws()) {
+      if (!law.has_volume_term || law.has_fibre) continue;
+      check_flow<double>(isa, 1e-11, sample_material(law.name));
+      check_flow<float>(isa, 1e-3, sample_material(law.name));
+    }
+  Material other = sample_material("mooney_rivlin");
+  other.volume_term = VolumeTerm::logarithmic;
+  for (const InstructionSet isa : instruction_sets()) {
+    check_flow<double>(isa, 1e-11, other);
+    check_flow<double>(isa, 1e-11, other, true);
+  }
+}
+
+TEST_CASE("elements flow alike whether fans were evaluated before, on any threads, after a snapshot and an edit") {
+  std::mt19937_64 random(68);
+  const TetMesh mesh = irregular_box(random, {16, 12, 10});
+  const Material material = flowing("mooney_rivlin", 60);
+  const std::vector<int> one_material(mesh.tets.size(), 0);
+  const auto first = moved(mesh, random, 0.005, Vec3(1.1, 1, 0.95).asDiagonal());
+  const auto second = moved(mesh, random, 0.005, Vec3(1.15, 1, 0.9).asDiagonal());
+  ElasticBody<float> evaluated(mesh, one_material, {material}, {}), other(mesh, one_material, {material}, {});
+  for (const bool later : {false, true}) {
+    forces_of(evaluated, first, 2);
+    if (later) forces_of(other, second);
+    commit(evaluated, first);
+    commit(other, first);
+    CHECK(evaluated.plastic_work() == other.plastic_work());
+    CHECK(evaluated.plastic_work() > 0);
+    const auto snapshot = other.snapshot();
+    CHECK(forces_of(evaluated, second, 3) == forces_of(other, second));
+    commit(other, second);
+    CHECK(forces_of(evaluated, first) != forces_of(other, first));
+    const std::vector<float> x(second.begin(), second.end());
+    other.restore(snapshot, x.data());
+    CHECK(forces_of(evaluated, first) == forces_of(other, first));
+  }
+  std::vector<int> all;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) all.push_back(static_cast<int>(t));
+  other.keep_elements(all);
+  const auto f = forces_of(evaluated, second);
+  CHECK(difference(forces_of(other, second), std::vector<double>(f.begin(), f.end())) <= 1e-4);
 }
 
 TEST_CASE("a material whose parameters come from other fields gets their values") {
