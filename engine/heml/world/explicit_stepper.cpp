@@ -186,6 +186,17 @@ void ExplicitStepper<Real>::begin_step(Real h, double time_after) {
   s_.move_constrained(true);
 }
 
+/// Lists the nodes at contacts, or those alone that were at none since all were asked for.
+template <class Real>
+void ExplicitStepper<Real>::list_contacts(bool all) {
+  touched_.clear();
+  if (s_.contacts.empty()) return;
+  std::vector<char>& known = s_.limit.touched;
+  if (all || known.size() != s_.masses->inverse.size()) known.assign(s_.masses->inverse.size(), 0);
+  s_.impulses.list_nodes(touched_);
+  std::erase_if(touched_, [&](int n) { return std::exchange(known[static_cast<std::size_t>(n)], 1) != 0; });
+}
+
 /// The same, half as long until it deforms no element too much (step_strain.hpp).
 template <class Real>
 template <class Method>
@@ -195,14 +206,17 @@ void ExplicitStepper<Real>::begin_bearable_step(Real& h, double time_after) {
   begin_step<Method>(h, time_after);
   s_.limit.of_strain *= 1 + growth_after_strain;
   if (!is_checked) return;
-  const bool with_small = s_.limit.steps_to_strain <= 1;
   while (true) {
-    touched_.clear();
-    if (has_contacts) s_.impulses.list_nodes(touched_);
+    const bool is_due = s_.limit.steps_to_strain <= 1;
+    list_contacts(is_due);
+    if (!is_due && touched_.empty()) {
+      --s_.limit.steps_to_strain;
+      return;
+    }
     strain_.adopt(*s_.model, *s_.topology, s_.setup->solver.continuation);
-    const double strain = strain_.largest(touched_, with_small, s_.last_valid.x.data(), s_.state.x.data());
+    const double strain = strain_.largest(touched_, is_due, s_.last_valid.x.data(), s_.state.x.data());
     const int calm = steps_until_strain(strain);
-    s_.limit.steps_to_strain = with_small ? calm : std::min(calm, s_.limit.steps_to_strain - 1);
+    s_.limit.steps_to_strain = is_due ? calm : std::min(calm, s_.limit.steps_to_strain - 1);
     if (!(strain > max_step_strain) || static_cast<double>(h) <= shortest_step * s_.limit.stable) return;
     h /= 2;
     shorten(static_cast<double>(h));

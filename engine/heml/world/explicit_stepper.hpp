@@ -25,6 +25,7 @@ class ExplicitStepper {
   void begin_step(Real h, double time_after);
   template <class Method>
   void begin_bearable_step(Real& h, double time_after);
+  void list_contacts(bool all);
   bool checks_strain() const;
   bool may_try_shorter(const StopReason& failure, double h);
   void shorten(double h);
@@ -34,7 +35,7 @@ class ExplicitStepper {
   ThreadTrial trial_;
   StepStrain<Real> strain_;
   typename ContactImpulses<Real>::Record before_;  ///< of the step's start
-  std::vector<int> touched_;                       ///< nodes of contacts
+  std::vector<int> touched_;                       ///< list_contacts()
 };
 
 }  // namespace heml

@@ -38,7 +38,8 @@ struct StepLimit {
   int interval = 0;           ///< steps until it is evaluated again
   /// s: a step was too long for an element (step_strain.hpp), and later ones grow
   double of_strain = std::numeric_limits<double>::infinity();
-  int steps_to_strain = 0;    ///< until that of all small elements is looked at again
+  int steps_to_strain = 0;    ///< until that of all small elements and those at contacts is looked at again
+  std::vector<char> touched;  ///< of each node, whether it was at a contact since the last such look
   std::vector<long> watched;  ///< serial numbers of the grasps near which every element is evaluated each time
 };
 

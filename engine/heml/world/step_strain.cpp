@@ -12,7 +12,7 @@ constexpr double small = 0.8;  // altitude, of the median
 constexpr double least_move =
     0.02;  // of an altitude at rest, along an axis: e is small below it unless the element is flat
 
-// Strain grows as waves come; those next to contacts are looked at in every step.
+// Strain grows as waves come; those next to new contacts are looked at at once.
 constexpr double part_between_looks = 0.25, most_between_looks = 8;
 
 using Mat3 = Eigen::Matrix3d;
