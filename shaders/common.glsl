@@ -3,7 +3,7 @@
 const vec3 key_colour = vec3(2.12, 1.99, 1.82);
 const vec3 sky_colour = vec3(0.45, 0.51, 0.59);
 const vec3 bounce_colour = vec3(0.055, 0.085, 0.09);
-const vec3 fill_colour = vec3(0.17, 0.175, 0.18);  // a weak lamp at the eye, for sides that no other light reaches
+const vec3 fill_colour = vec3(0.60, 0.60, 0.61);  // of a lamp at the eye, on what faces down
 const vec3 cloth_colour = vec3(0.026, 0.070, 0.084);
 
 // Offset of outline strips towards the eye, in clip depth, so that they lie over adjacent faces.

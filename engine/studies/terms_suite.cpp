@@ -19,13 +19,15 @@ constexpr const char* shear_field = "shear";  ///< of a material whose shear mod
 
 std::vector<AddedTerm> added_terms() {
   const Material bare = bench_material("neo_hookean_iso");
-  Material viscous = bare, relaxing = bare, three_branches = bare, other_volume = bare, plastic = bare, varying = bare;
+  Material viscous = bare, relaxing = bare, three_branches = bare, other_volume = bare, plastic = bare, varying = bare,
+           active = bare;
   viscous.viscosity = 1;
   relaxing.relaxation = {{0.3, 0.1}};
   three_branches.relaxation = {{0.3, 0.1}, {0.2, 1}, {0.1, 10}};
   other_volume.volume_term = VolumeTerm::logarithmic;
   plastic.plasticity = Plasticity{1e6, 0};  // which is never reached
   varying.fields = {{0, shear_field}};
+  active.fibre = Vec3::UnitX(), active.active_stress = 100;
   return {{"law alone", bare},
           {"viscosity", viscous},
           {"relaxation", relaxing},
@@ -33,7 +35,8 @@ std::vector<AddedTerm> added_terms() {
           {"another volume term", other_volume},
           {"nodal pressure", bare, true},
           {"plasticity below yield", plastic},
-          {"parameter by element", varying}};
+          {"parameter by element", varying},
+          {"active stress", active}};
 }
 
 /// One row per term, their worlds interleaved.

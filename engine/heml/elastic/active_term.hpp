@@ -3,6 +3,8 @@
 // Ta it is the gradient of V Ta/2 (I4 − 1), and T_ab = V Ta m_a m_b with m = Dm⁻¹a0 does not depend on the deformation:
 // forces are linear in x, and the stiffness is constant and positive.
 //
+// Kernels of fans add it to the tensions of the law (fan_terms.hpp); elsewhere forces are those of loops:
+//
 //   f_a = −V Ta m_a F a0,   F a0 = Σ_a m_a e_a,   K_ab = V Ta m_a m_b I
 //
 // The stress is that of Land et al. 2015 (Proc. R. Soc. A 471, 20150641), problem 3.
@@ -18,6 +20,7 @@ class ActiveTerm final : public GroupTerm<Real> {
   /// stress: Ta, Pa. Groups must have fibres.
   explicit ActiveTerm(Real stress) : stress_(stress) {}
   void set_stress(Real stress) { stress_ = stress; }
+  Real stress() const { return stress_; }
 
   Tensions<Real> tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                           const RestShape<Real>& rest) const override;

@@ -2,8 +2,8 @@
 // The elastic part of a body: one group of elements per material, each with its energy terms; springs along edges and
 // averaged nodal pressure, which couple elements; and the sum of all forces at the nodes.
 //
-//   forces(x):  uniform laws, their passive terms ──► fans ──► nodes ──► + springs
-//               others, active stress ──► corner forces ──► added at nodes ─┘
+//   forces(x):  laws that fans have, with their terms ──► fans ──► nodes ──► + springs
+//               others ──► corner forces ──► added at nodes ─┘
 //
 // Nodal pressure comes with the fans if they have all elements, else with the corner forces.
 //
@@ -58,8 +58,8 @@ struct KernelInfo {
   std::size_t material;  ///< index into the body's materials
   std::string law;
   std::string kernel;  ///< "fans": fan kernels; "points": point kernels, or the loops that replace them; "corners":
-                       ///< loops over corner forces; "fans and corners": fan kernels, loops for nodal pressure or
-                       ///< active stress; "points and corners": point kernels, loops for other terms than the law;
+                       ///< loops over corner forces; "fans and corners": fan kernels, loops for nodal pressure;
+                       ///< "points and corners": point kernels, loops for other terms than the law;
                        ///< "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
@@ -270,7 +270,7 @@ class ElasticBody {
     std::unique_ptr<PlasticFlow<Real>> flow;
     std::unique_ptr<MeanDilatation<Real>> dilatation;  ///< null: the points have all of the volume term
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
-    bool in_fans;                                      ///< fans_ evaluates the forces of all passive terms
+    bool in_fans;                                      ///< fans_ evaluates the forces of all terms
     PointForces<Real> points;                          ///< of the law, the first of the terms
     ActiveTerm<Real>* active = nullptr;                ///< the last of the terms, or null
     bool flows_within_steps = false;                   ///< of implicit methods; else after them
@@ -278,7 +278,7 @@ class ElasticBody {
     Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
     bool in_points() const { return points.kernel != nullptr; }
     /// The first of the terms whose forces are those of loops.
-    std::size_t first_loop() const { return in_fans ? terms.size() - (active ? 1 : 0) : in_points() ? 1 : 0; }
+    std::size_t first_loop() const { return in_fans ? terms.size() : in_points() ? 1 : 0; }
     /// κ̄ of each slot, if point kernels take it: of a quadratic volume term, which is no term of its own.
     const Real* kappa_of_points() const {
       return in_points() && dilatation && dilatation->is_quadratic() ? dilatation->kappa() : nullptr;

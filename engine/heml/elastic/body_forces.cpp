@@ -98,6 +98,9 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
     if (!pressure_->is_defined()) valid = false;
   }
   if (fans_.needs_state()) fans_.read_state(fan_slots());
+  std::size_t in_fans = 0;
+  for (const Part& part : parts_)
+    if (part.in_fans) fans_.set_active_stress(in_fans++, part.active ? part.active->stress() : Real(0));
   if (!fans_.empty() && !fans_.forces(x, f, team, pressure)) valid = false;
   const bool has_loops = !layout_->joints.force_corners.corners.empty();
   Real* corner = has_loops ? corner_forces().data() : nullptr;

@@ -23,7 +23,8 @@
 //
 // The constants are A*_aa, A*_00, A*_11, A*_01 of A* = 6V A and k = 1/6V; for a law of principal stretches the lower
 // Cholesky factor of A* instead (aa 00 11 10); for a law with a fibre additionally √(6V) Dm⁻¹a0; then the law's
-// parameters that differ between elements.
+// parameters that differ between elements; then √(6V) Dm⁻¹a0 for
+// active stress in a law without a fibre.
 //
 // Plain data only: files compiled for other instruction sets include this header.
 #include <cstddef>

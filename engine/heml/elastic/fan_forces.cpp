@@ -18,7 +18,8 @@ FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape
   FanElements result{*part.elements, shape};
   for (const FieldParameter& parameter : part.material->fields)
     result.parameters.push_back(&find_field(mesh, parameter.field)->values);
-  if (shape != FanShape::fibre) return result;
+  if (shape != FanShape::fibre && !part.material->gives_fibre()) return result;
+  result.has_fibre_beside = shape != FanShape::fibre;
   const std::string& field = part.material->fibre_field;
   const std::vector<double>* values = field.empty() ? nullptr : &find_field(mesh, field)->values;
   result.fibre = [values, fibre = part.material->fibre](int t) -> Vec3 {
@@ -61,7 +62,7 @@ typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool 
       result.law = std::make_shared<const L>(law);
       result.shape = PrincipalLaw<L, Real> ? FanShape::principal : L::uses_I4 ? FanShape::fibre : FanShape::plain;
     });
-  const bool has_fibre = result.shape == FanShape::fibre;
+  const bool has_fibre = result.shape == FanShape::fibre || material.gives_fibre();
   result.fibre = has_fibre && material.fibre_field.empty() ? material.fibre : Vec3::Zero();
   if (has_fibre) result.fibre_field = material.fibre_field;
   set_parameters(part, isochoric, result);
@@ -92,9 +93,8 @@ void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law
   law.takes_pressure = part.nodal_pressure;
   if (part.nodal_pressure) terms.volume = FanVolume::none;
   assert(!terms.flows || terms.state == 0);
-  if (terms.state == 0 && terms.volume == FanVolume::none && !law.takes_pressure && law.parameters.empty() &&
-      !terms.flows)
-    return;
+  law.has_terms = terms.state > 0 || terms.volume != FanVolume::none || law.takes_pressure || !law.parameters.empty() ||
+                  terms.flows || (law.shape != FanShape::fibre && terms.fibre_constant > 0);
   terms.is_principal = law.shape == FanShape::principal;
   terms.is_continued = continuation;
   const FanTermKernels<Real> kernels = fan_term_kernels<Real>(isa_);
@@ -102,8 +102,8 @@ void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law
                                                   : kernels.of_law(law_index(material.law), continuation);
 }
 
-/// Which constants are parameters that differ between elements: of the law, or of its volume term, which takes κ from
-/// it.
+/// Which constants are the fibre of active stress, and parameters that differ between elements: of the law, or of its
+/// volume term, which takes κ from it.
 template <class Real>
 void FanForces<Real>::set_parameters(const FanPart& part, bool isochoric, Law& law) const {
   const Material& material = *part.material;
@@ -121,6 +121,12 @@ void FanForces<Real>::set_parameters(const FanPart& part, bool isochoric, Law& l
     law.fields.push_back(field.field);
   }
   law.terms.constants = of_shape + law.parameters.size();
+  if (law.shape == FanShape::fibre) {
+    law.terms.fibre_constant = fan_constants(false);
+  } else if (material.gives_fibre()) {
+    law.terms.fibre_constant = law.terms.constants;
+    law.terms.constants += 3;
+  }
 }
 
 template <class Real>
@@ -210,7 +216,7 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
       const bool remembers = law.terms.state > 0, flows = law.terms.flows;
       const Real* state = flows ? flow_.shape(b) : remembers ? state_.now(b) : nullptr;
       Real* next = flows ? flow_.beyond_of(b) : remembers ? state_.next(b) : nullptr;
-      const bool defined = law.term_kernel
+      const bool defined = law.has_terms || law.terms.active != 0
                                ? law.term_kernel(law.law.get(), block, terms[part], state, next, x, f)
                                : law.kernel(law.law.get(), block, x, f);
       if (!defined) valid.store(false, std::memory_order_relaxed);

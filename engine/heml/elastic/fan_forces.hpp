@@ -2,6 +2,7 @@
 // Forces of elements of constant rest shapes: blocks of fans (elastic/fan_block.hpp), each run by the kernel of its
 // law, or by the one of its law and further terms or parameters that differ (elastic/fan_terms.hpp). Blocks write the
 // forces of their own nodes, and those of shared nodes are summed (elastic/node_blocks.hpp).
+#include <cassert>
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/fan_flow.hpp>
 #include <heml/elastic/fan_kernels.hpp>
@@ -62,6 +63,12 @@ class FanForces {
   /// Costs nothing where forces() were evaluated at this x last.
   void commit(const Real* x);
 
+  /// Pa, of a part with terms whose material gives a fibre (asserted unless 0).
+  void set_active_stress(std::size_t part, Real stress) {
+    assert(stress == 0 || laws_[part].terms.fibre_constant > 0);
+    laws_[part].terms.active = stress;
+  }
+
   // Plastic flow of parts with terms.
   /// Whether forces() were evaluated at this x last, with the rest shapes of now, so that beyond_yield() holds.
   bool is_evaluated_at(const Real* x) const;
@@ -87,12 +94,13 @@ class FanForces {
     FanKernel<Real> kernel;
     std::shared_ptr<const void> law;
     FanShape shape;
-    Vec3 fibre;               ///< only with FanShape::fibre
-    std::string fibre_field;  ///< only with FanShape::fibre
+    Vec3 fibre;
+    std::string fibre_field;
     std::vector<std::string> fields;      ///< of the parameters that differ between elements
     std::vector<std::size_t> parameters;  ///< FanTerms::parameters
 
-    FanTermKernel<Real> term_kernel = nullptr;  ///< null: the law alone, with the same parameters in all elements
+    FanTermKernel<Real> term_kernel;
+    bool has_terms = false;  ///< else the law alone, with the same parameters in all elements, and active stress
     FanTerms<Real> terms;
     std::vector<FanBranch<Real>> branches;
     std::vector<PronyTerm> relaxation;

@@ -72,7 +72,7 @@ std::array<double, fan_constants(true)> constants_of(const Vec3& a, const Vec3& 
   const Vec3 m = std::sqrt(six_volumes) * g * fibre;
   if (shape != FanShape::principal) return {A(0, 0), A(1, 1), A(2, 2), A(1, 2), 1 / six_volumes, m[0], m[1], m[2]};
   const double l00 = std::sqrt(A(1, 1)), l10 = A(1, 2) / l00;
-  return {std::sqrt(A(0, 0)), l00, std::sqrt(A(2, 2) - l10 * l10), l10, 1 / six_volumes, 0, 0, 0};
+  return {std::sqrt(A(0, 0)), l00, std::sqrt(A(2, 2) - l10 * l10), l10, 1 / six_volumes, m[0], m[1], m[2]};
 }
 
 /// Rest positions of the nodes of a fan; those of a dummy fan are a right-angled corner.
@@ -129,16 +129,20 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Chunk
         groups.shape[shape + i * lanes + l] = static_cast<Real>(nodes.foot[i]);
       }
       for (std::size_t i = 0; i < size.tets; ++i) {
-        const bool has_fibre = part.shape == FanShape::fibre && !fan.tets.empty();
+        const bool has_fibre = part.fibre && !fan.tets.empty();
         const Vec3 fibre = has_fibre ? part.fibre(chunk.elements[fan.tets[i]]) : Vec3::UnitX();
         const double scale = fan.tets.empty() ? 1 : rest_scale(mesh, at(chunk.elements[fan.tets[i]]));
         const auto values = constants_of(scale * nodes.axis, scale * nodes.spoke[i],
                                          scale * nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
         // A dummy fan has the parameters of any element, for which the law is defined.
         const std::size_t t = at(chunk.elements[fan.tets.empty() ? 0 : fan.tets[i]]);
-        for (std::size_t c = 0; c < constants; ++c)
-          groups.shape[shape + (size.ring + i * constants + c) * lanes + l] =
-              static_cast<Real>(c < of_shape ? values[c] : (*part.parameters[c - of_shape])[t]);
+        const std::size_t beside = of_shape + part.parameters.size();
+        for (std::size_t c = 0; c < constants; ++c) {
+          const double value = c < of_shape ? values[c]
+                               : c < beside ? (*part.parameters[c - of_shape])[t]
+                                            : values[fan_constants(false) + c - beside];
+          groups.shape[shape + (size.ring + i * constants + c) * lanes + l] = static_cast<Real>(value);
+        }
       }
     }
   }

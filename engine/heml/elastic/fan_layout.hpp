@@ -38,12 +38,15 @@ enum class FanShape { plain, fibre, principal };
 struct FanElements {
   std::vector<int> elements;  ///< inner numbers, in locality order
   FanShape shape = FanShape::plain;
-  std::function<Vec3(int element)> fibre = {};  ///< a0, FanShape::fibre only
+  std::function<Vec3(int element)> fibre = {};  ///< a0, of FanShape::fibre and for active stress
+  bool has_fibre_beside = false;                ///< whether its constants come last, since the law has none
   /// Parameters that differ between elements, each of every element of the mesh.
   std::vector<const std::vector<double>*> parameters = {};
 
   /// Numbers a tetrahedron.
-  std::size_t constants() const { return fan_constants(shape == FanShape::fibre) + parameters.size(); }
+  std::size_t constants() const {
+    return fan_constants(shape == FanShape::fibre) + parameters.size() + (has_fibre_beside ? 3 : 0);
+  }
 };
 
 template <class Real>

@@ -201,6 +201,19 @@ struct TermStages {
     }
   }
 
+  /// T += Ta/6 m* m*ᵀ, reversed.
+  static void add_active(const FanTerms<Real>& terms, const Group& group, Work& work) {
+    const P scale = terms.active * Real(-1.0 / 6);
+    const Real* constant = group.rest + terms.fibre_constant * lanes;
+    for (std::size_t i = 1; i <= group.m; ++i, constant += terms.constants * lanes) {
+      const P a = pack_at<P>(constant), b0 = pack_at<P>(constant + lanes), b1 = pack_at<P>(constant + 2 * lanes);
+      const P sa = scale * a, s0 = scale * b0;
+      FanTensions<P>& t = work.tensions[i];
+      t.aa += sa * a, t.b00 += s0 * b0, t.b11 += scale * b1 * b1;
+      t.a0 += sa * b0, t.a1 += sa * b1, t.b01 += s0 * b1;
+    }
+  }
+
   static void add_terms(const FanTerms<Real>& terms, const Group& group, Work& work, const Real* state, Real* next,
                         const Real* records, const std::uint16_t* index, Mask<P>& valid) {
     if (terms.branch_count > 0) add_relaxation(terms, group, work, state, next);
@@ -209,6 +222,7 @@ struct TermStages {
       add_pressure(group, work, records, index);
     else if (terms.volume != FanVolume::none)
       add_volume(terms, group, work, valid);
+    if (terms.active != 0) add_active(terms, group, work);
   }
 
   [[gnu::noinline]] static bool block(LawTensions tensions, void* law, const FanBlock<Real>& block,

@@ -1,7 +1,7 @@
 #pragma once
-// Terms beside the law in the fan kernels: viscosity, relaxation, volume terms of their own, averaged nodal pressure
-// (elastic/viscoelastic_term.hpp, elastic/nodal_pressure.hpp have the formulas). A kernel with terms runs one group of
-// fans through stages, of which the second alone depends on the law:
+// Terms beside the law in the fan kernels: viscosity, relaxation, volume terms of their own, averaged nodal pressure,
+// active stress (elastic/viscoelastic_term.hpp, elastic/nodal_pressure.hpp, elastic/active_term.hpp have the formulas).
+// A kernel with terms runs one group of fans through stages, of which the second alone depends on the law:
 //
 //   nodes ──► spokes ──► tensions of the law ──► + terms ──► forces at each ring node ──► nodes
 //                                                 │  ▲
@@ -12,8 +12,8 @@
 // The six numbers are of the edges a, b0, b1 of elastic/fan_block.hpp, as aa 00 11 a0 a1 01; tensions have the reversed
 // sign of the kernels.
 //
-// Rest shapes that plastic flow changes (elastic/fan_flow.hpp) take the place of the state, and what is beyond yield that
-// of the next state: such materials have no other memory.
+// Rest shapes that plastic flow changes (elastic/fan_flow.hpp) take the place of the state, and what is beyond yield
+// that of the next state: such materials have no other memory.
 //
 // Parameters that differ between elements are read before the tensions of each tetrahedron, from behind the constants
 // of its rest shape (elastic/fan_block.hpp). Only kernels with terms do that.
@@ -60,6 +60,8 @@ struct FanTerms {
   Real kappa = 0;                  ///< Pa
   std::size_t kappa_constant = 0;  ///< which constant is κ instead; 0: none
   const Real* pressure = nullptr;  ///< Pa, of every node; null without averaged nodal pressure
+  Real active = 0;                 ///< Pa, of muscle (elastic/active_term.hpp)
+  std::size_t fibre_constant = 0;  ///< which constant its fibre begins at; 0: none
 };
 
 /// As FanKernel, for the law and these terms. `state`: of the block; `next`: state after the step, overwritten; of
