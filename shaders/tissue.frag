@@ -133,8 +133,10 @@ void main() {
   vec3 v = normalize(v_view);
 #ifdef WOUND
   float open = 0.12 + 0.88 * v_value;
+  const float fill = 1.0;  // raw tissue is dark
 #else
   float open = v_surface.a;
+  const float fill = 0.3;
 #endif
 
 #ifdef FIELD
@@ -200,7 +202,8 @@ void main() {
   // Subsurface scattering: wrapped diffuse light, widest in red, whose smooth normal ignores the bumps.
   vec3 facing = vec3(dot(smooth_n, key_direction), vec2(dot(n, key_direction)));
   vec3 lit = clamp((facing + bleed) / (1.0 + bleed), 0.0, 1.0);
-  vec3 below = max(bounce_colour, fill_colour * clamp(-smooth_n.y, 0.0, 1.0) * (0.35 + 0.65 * dot(smooth_n, v)));
+  float at_eye = clamp(-smooth_n.y, 0.0, 1.0) * (0.35 + 0.65 * dot(smooth_n, v));
+  vec3 below = max(bounce_colour, fill * at_eye * fill_colour);
   vec3 ambient = mix(below, sky_colour, 0.5 + 0.5 * n.y) * hollow;
 #ifdef OUTLINE
   float nv = 0.2;  // as in the pixels next to the strip, without the glare at grazing angles

@@ -33,6 +33,38 @@ double strain_of(const Mat3& F, const Mat3& before = Mat3::Identity()) {
   return strain.largest({0}, true, x.data(), y.data());
 }
 
+/// A box, held at one end, that is cut in tick 5 and falls on a table put there in one tick, and on another in a later
+/// one.
+struct DroppedBox {
+  Material material;
+  std::array<double, 3> blade;   ///< m
+  std::array<double, 2> height;  ///< m, of the tables
+  std::array<int, 2> tick;
+
+  std::unique_ptr<World> world() const {
+    WorldSetup setup;
+    setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {10, 2, 2});
+    setup.materials = {{std::nullopt, material}};
+    setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })});
+    setup.gravity = Vec3(0, -9.81, 0);
+    setup.solver.integrator = Integrator::verlet;
+    setup.solver.rate = 60;
+    setup.solver.threads = 1;
+    return make_world(setup);
+  }
+  /// The tick from k/60 s on, with what comes before it.
+  void run_tick(World& world, int k) const {
+    CutTissue cut;
+    cut.sweep.blades = {{Vec3(blade[0], -1, -1), Vec3(blade[0], -1, 1)}, {Vec3(blade[1], 1, -1), Vec3(blade[2], 1, 1)}};
+    if (k == 5) REQUIRE(world.apply(cut).ok());
+    for (std::size_t t = 0; t < 2; ++t)
+      if (k == tick[t]) REQUIRE(world.apply(SetTables{{{Vec3(0, height[t], 0), Vec3::UnitY(), 0}}}).ok());
+    world.tick();
+  }
+};
+
+Material fung() { return {"fung_demiray", {2000, 2, 1e5}, 1000}; }
+
 }  // namespace
 
 TEST_CASE("strain of a step: compressed, turned and turned inside out, in closed form") {
@@ -48,46 +80,50 @@ TEST_CASE("strain of a step: compressed, turned and turned inside out, in closed
 }
 
 TEST_CASE("slivers of cuts land on tables, explicitly, and none runs away") {
-  const Material fung{"fung_demiray", {2000, 2, 1e5}, 1000};
   // Each ran away or was pressed flat where steps were those that the shape before them bears.
-  struct Case {
-    Material material;
-    std::array<double, 3> blade;   ///< m
-    std::array<double, 2> height;  ///< m, of the tables
-    std::array<int, 2> tick;
-  };
-  const std::vector<Case> cases = {
-      {fung, {0.0494, 0.0681, 0.0438}, {-0.03, -0.022}, {11, 30}},
-      {fung, {0.0394, 0.0341, 0.0458}, {-0.0461, -0.0215}, {14, 33}},
-      {fung, {0.0343, 0.0581, 0.0561}, {-0.0265, -0.0201}, {12, 29}},
-      {fung, {0.0445, 0.0492, 0.0467}, {-0.0388, -0.0191}, {12, 28}},
+  const std::vector<DroppedBox> boxes = {
+      {fung(), {0.0494, 0.0681, 0.0438}, {-0.03, -0.022}, {11, 30}},
+      {fung(), {0.0394, 0.0341, 0.0458}, {-0.0461, -0.0215}, {14, 33}},
+      {fung(), {0.0343, 0.0581, 0.0561}, {-0.0265, -0.0201}, {12, 29}},
+      {fung(), {0.0445, 0.0492, 0.0467}, {-0.0388, -0.0191}, {12, 28}},
       {soft("neo_hookean", 6000, 0.45), {0.0528, 0.0621, 0.0325}, {-0.0471, -0.0167}, {15, 35}},
       {soft("neo_hookean", 6000, 0.45), {0.0317, 0.0658, 0.0348}, {-0.045, -0.0196}, {12, 34}}};
-  for (const Case& c : cases) {
-    CAPTURE(c.blade[0]);
-    WorldSetup setup;
-    setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {10, 2, 2});
-    setup.materials = {{std::nullopt, c.material}};
-    setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })});
-    setup.gravity = Vec3(0, -9.81, 0);
-    setup.solver.integrator = Integrator::verlet;
-    setup.solver.rate = 60;
-    setup.solver.threads = 1;
-    CutTissue cut;
-    cut.sweep.blades = {{Vec3(c.blade[0], -1, -1), Vec3(c.blade[0], -1, 1)},
-                        {Vec3(c.blade[1], 1, -1), Vec3(c.blade[2], 1, 1)}};
-    auto world = make_world(setup);
+  for (const DroppedBox& box : boxes) {
+    CAPTURE(box.blade[0]);
+    const auto world = box.world();
     double most = 0;
     for (int k = 0; k < 60 && !world->halt(); ++k) {
-      if (k == 5) REQUIRE(world->apply(cut).ok());
-      for (std::size_t t = 0; t < 2; ++t)
-        if (k == c.tick[t]) REQUIRE(world->apply(SetTables{{{Vec3(0, c.height[t], 0), Vec3::UnitY(), 0}}}).ok());
-      world->tick();
+      box.run_tick(*world, k);
       most = std::max(most, total(world->energies()));
     }
     CHECK_FALSE(world->halt());
     // Nothing but the second table, which lifts what lies on it by 3 cm at most, does work.
     CHECK(most < 0.04 * 9.81 * 0.04);
+  }
+}
+
+TEST_CASE("a snapshot amid steps that were shortened restores what they go on with") {
+  const DroppedBox box{fung(), {0.0494, 0.0681, 0.0438}, {-0.03, -0.022}, {11, 30}};
+  constexpr int ticks = 40;
+  const auto world = box.world();
+  std::vector<std::shared_ptr<const WorldSnapshot>> before;  // each tick
+  std::vector<std::uint64_t> after;
+  std::vector<long> steps;
+  for (int k = 0; k < ticks; ++k) {
+    before.push_back(world->snapshot());
+    steps.push_back(world->steps());
+    box.run_tick(*world, k);
+    after.push_back(world->state_hash());
+    steps.back() = world->steps() - steps.back();
+  }
+  CHECK(*std::max_element(steps.begin() + box.tick[0], steps.end()) >= 2 * steps[6]);
+  for (int from = box.tick[0]; from < ticks; ++from) {
+    CAPTURE(from);
+    REQUIRE(world->restore(*before[static_cast<std::size_t>(from)]).ok());
+    for (int k = from; k < std::min(ticks, from + 4); ++k) {
+      box.run_tick(*world, k);
+      CHECK(world->state_hash() == after[static_cast<std::size_t>(k)]);
+    }
   }
 }
 
