@@ -59,7 +59,7 @@ void ElasticBody<Real>::commit(const Real* x) {
   x = inner_positions(x, y);
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   if (fans_.has_state()) slots_are_old_ = true;
-  const bool fans_know = fans_.is_evaluated_at(x);
+  const bool fans_know = flows_within_steps() && fans_.is_evaluated_at(x);
   fans_.commit(x);
   for (Part& part : parts_)
     if (!part.in_fans)

@@ -205,6 +205,7 @@ void ExplicitStepper<Real>::begin_bearable_step(Real& h, double time_after) {
   if (is_checked && has_contacts) s_.impulses.keep(s_.contacts, before_);
   begin_step<Method>(h, time_after);
   s_.limit.of_strain *= 1 + growth_after_strain;
+  if (!has_contacts) s_.limit.touched.clear();  // those that come later are new
   if (!is_checked) return;
   while (true) {
     const bool is_due = s_.limit.steps_to_strain <= 1;
