@@ -40,8 +40,10 @@ std::vector<AddedTerm> added_terms() {
 }
 
 /// One row per term, their worlds interleaved.
-std::vector<BenchRow> time_terms(const BenchBody& body, bool single, bool quick) {
+std::vector<BenchRow> time_terms(const BenchBody& body, bool quadratic, bool single, bool quick) {
   TetMesh mesh = body.mesh;
+  MidEdges midedges;
+  if (quadratic) midedges = add_midedge_nodes(mesh);
   mesh.fields.push_back(
       {shear_field, 1, std::vector<double>(mesh.tets.size(), added_terms().front().material.parameters[0])});
   const std::vector<AddedTerm> terms = added_terms();
@@ -50,6 +52,8 @@ std::vector<BenchRow> time_terms(const BenchBody& body, bool single, bool quick)
   std::vector<long> steps, ticks;
   for (const AddedTerm& term : terms) {
     WorldSetup setup = hanging_cube(mesh, term.material);
+    setup.midedges = midedges;
+    setup.solver.quadratic = quadratic;
     setup.solver.integrator = Integrator::verlet;
     setup.solver.single_precision = single;
     setup.solver.threads = 1;
@@ -70,7 +74,7 @@ std::vector<BenchRow> time_terms(const BenchBody& body, bool single, bool quick)
     const double a_tick =
         static_cast<double>(worlds[k]->steps() - steps[k]) / static_cast<double>(worlds[k]->ticks() - ticks[k]);
     BenchRow row;
-    row.name = fmt::format("verlet, {}", terms[k].name);
+    row.name = fmt::format("verlet, {}{}", quadratic ? "p2, " : "", terms[k].name);
     row.mesh = body.name;
     row.nodes = mesh.nodes.size();
     row.tets = mesh.tets.size();
@@ -95,10 +99,12 @@ std::vector<BenchRow> time_terms(const BenchBody& body, bool single, bool quick)
 
 std::vector<BenchRow> terms_suite(const BenchOptions& options) {
   std::vector<BenchRow> rows;
-  const BenchBody body = bench_cube(options.quick ? 9 : 13, false);
-  for (const bool single : {false, true}) {
-    options.progress("terms", single ? 0.5 : 0.0);
-    for (BenchRow& row : time_terms(body, single, options.quick)) rows.push_back(std::move(row));
+  for (const bool quadratic : {false, true}) {
+    const BenchBody body = bench_cube((quadratic ? 5 : 9) + (options.quick ? 0 : 4), false);
+    for (const bool single : {false, true}) {
+      options.progress("terms", (quadratic ? 0.5 : 0.0) + (single ? 0.25 : 0.0));
+      for (BenchRow& row : time_terms(body, quadratic, single, options.quick)) rows.push_back(std::move(row));
+    }
   }
   return rows;
 }

@@ -97,10 +97,10 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   if (layout_->virtual_corners)
     part.points = point_forces<Real>(of_points, options_.continuation, options_.instruction_set);
   part.in_fans = !part.terms.empty() && (!part.flow || part.flows_within_steps) && !layout_->virtual_corners &&
-                 has_fan_kernel(material);
-  if (part.in_fans)
-    for (const auto& term : part.terms)
-      if (auto* memory = dynamic_cast<ViscoelasticTerm<Real>*>(term.get())) memory->leave_state_to_fans();
+                 has_kernel(material);
+  for (const auto& term : part.terms)
+    if (auto* memory = dynamic_cast<ViscoelasticTerm<Real>*>(term.get())) part.memory = memory;
+  if (part.in_fans && part.memory) part.memory->leave_state_to_fans();
   return part;
 }
 
@@ -165,6 +165,7 @@ template <class Real>
 void ElasticBody<Real>::join_parts() {
   typename BodyLayout<Real>::Joints joints;
   step_weights_.reset();
+  evaluated_ = false;
   joints.corner_count = number_corners();
   std::vector<const ElementGroup<Real>*> groups;
   for (const Part& part : parts_) groups.push_back(&*part.group);
@@ -270,13 +271,14 @@ void ElasticBody<Real>::make_pressure() {
 
 template <class Real>
 std::size_t ElasticBody<Real>::bytes() const {
-  std::size_t sum = layout_->bytes() + bytes_of(corner_, of_element_, shared_force_, virtual_x_);
+  std::size_t sum = layout_->bytes() + bytes_of(corner_, of_element_, shared_force_, virtual_x_, evaluated_x_);
   sum += bytes_of(linearisation_point_, packet_energy_, node_volume_, due_packets_, weighted_bound_);
   if (step_weights_) sum += step_weights_->bytes();
   for (const Part& part : parts_) {
     sum += part.group->bytes();
     sum += bytes_of(part.stiffness) + (part.flow ? part.flow->bytes() : 0);
     if (part.dilatation) sum += part.dilatation->bytes();
+    if (part.memory) sum += part.memory->scratch_bytes();
     for (const auto& term : part.terms)
       for (const SlotState<Real>& state : term->slot_states()) sum += bytes_of(*state.values);
   }

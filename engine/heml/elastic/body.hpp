@@ -34,6 +34,8 @@
 namespace heml {
 
 class BsrMatrix;
+template <class Real>
+class ViscoelasticTerm;
 
 /// State of one element, for display.
 template <class Real>
@@ -59,7 +61,6 @@ struct KernelInfo {
   std::string law;
   std::string kernel;  ///< "fans": fan kernels; "points": point kernels, or the loops that replace them; "corners":
                        ///< loops over corner forces; "fans and corners": fan kernels, loops for nodal pressure;
-                       ///< "points and corners": point kernels, loops for other terms than the law;
                        ///< "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
@@ -271,23 +272,19 @@ class ElasticBody {
     std::unique_ptr<MeanDilatation<Real>> dilatation;  ///< null: the points have all of the volume term
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
     bool in_fans;                                      ///< fans_ evaluates the forces of all terms
-    PointForces<Real> points;                          ///< of the law, the first of the terms
+    PointForces<Real> points;                          ///< of all terms, if it has a kernel
+    ViscoelasticTerm<Real>* memory = nullptr;          ///< one of the terms, or null
     ActiveTerm<Real>* active = nullptr;                ///< the last of the terms, or null
     bool flows_within_steps = false;                   ///< of implicit methods; else after them
 
     Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
     bool in_points() const { return points.kernel != nullptr; }
     /// The first of the terms whose forces are those of loops.
-    std::size_t first_loop() const { return in_fans ? terms.size() : in_points() ? 1 : 0; }
-    /// κ̄ of each slot, if point kernels take it: of a quadratic volume term, which is no term of its own.
-    const Real* kappa_of_points() const {
-      return in_points() && dilatation && dilatation->is_quadratic() ? dilatation->kappa() : nullptr;
-    }
+    std::size_t first_loop() const { return in_fans || in_points() ? terms.size() : 0; }
+    PointTerms<Real> terms_of_points() const;
     SlotStates<Real> slot_states();     ///< of all terms and the flow
     void reset_history(const Real* x);  ///< of all terms and the flow
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
-    /// Of quadratic elements.
-    bool has_virtual_loops() const { return terms.size() > first_loop() || (dilatation && !kappa_of_points()); }
   };
   static constexpr std::size_t grain_ = 2048;       ///< min. elements per thread, which outweigh the cost of waking it
   static constexpr std::size_t large_body_ = 8192;  ///< elements from which a team builds the layout
@@ -336,6 +333,8 @@ class ElasticBody {
   }
   bool virtual_corner_forces(const Real* x, Real* f, bool add, ThreadTeam& team);
   bool quadratic_forces(const Real* x, Real* f, ThreadTeam& team);
+  bool points_remember() const;
+  void commit_points(const Real* x);
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;
@@ -406,6 +405,8 @@ class ElasticBody {
   std::vector<Real> corner_;               ///< corner_forces()
   std::vector<Real> of_element_;           ///< nodal_forces()
   std::vector<Real> shared_force_;         ///< 3 a shared slot of the point layout, scratch of forces()
+  std::vector<Real> evaluated_x_;          ///< where point kernels wrote the next state
+  bool evaluated_ = false;                 ///< whether they did, in this step
   std::vector<Real> linearisation_point_;  ///< 3 a node of the layout's mesh
   bool projected_ = false;                 ///< whether project() was applied
   std::vector<double> packet_energy_;      ///< scratch of energy()

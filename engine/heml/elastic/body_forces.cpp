@@ -3,6 +3,7 @@
 #include <atomic>
 #include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/viscoelastic_term.hpp>
 
 namespace heml {
 namespace {
@@ -44,17 +45,16 @@ bool ElasticBody<Real>::virtual_corner_forces(const Real* x, Real* f, bool add, 
   };
   for (const Part& part : parts_) {
     const ElementGroup<Real>& group = *part.group;
-    if (!part.has_virtual_loops()) {  // nothing is left of these
+    if (part.in_points()) {  // whose kernels have all of it
       for (std::size_t s = 0; s < group.size(); s += element_points)
         std::fill_n(of_element + 30 * element_at(group, s), 30, Real(0));
       continue;
     }
-    const std::size_t first = part.first_loop();
-    for (std::size_t k = first; k < part.terms.size(); ++k)
+    for (std::size_t k = 0; k < part.terms.size(); ++k)
       team.parallel_for(group.packets(), grain_ / group.lanes, [&](std::size_t begin, std::size_t end) {
-        note(part.terms[k]->forces(group, y, begin, end, corner, k > first));
+        note(part.terms[k]->forces(group, y, begin, end, corner, k > 0));
       });
-    if (part.dilatation && !part.kappa_of_points())
+    if (part.dilatation)
       team.parallel_for(group.packets(), grain_ / 4 / group.lanes, [&](std::size_t begin, std::size_t end) {
         note(part.dilatation->add_forces(group, y, begin, end, corner));
       });
@@ -64,23 +64,47 @@ bool ElasticBody<Real>::virtual_corner_forces(const Real* x, Real* f, bool add, 
   return valid;
 }
 
-/// Of quadratic elements: point kernels take the laws, loops over virtual corners the other terms.
+/// Volume term, active stress, and the state of viscosity and relaxation, whose next one is written by kernels.
+template <class Real>
+PointTerms<Real> ElasticBody<Real>::Part::terms_of_points() const {
+  PointTerms<Real> result = points.terms;
+  if (points.kappa_field) result.kappa_of = group->parameters[*points.kappa_field].data();
+  if (memory) memory->put_in_points(result);
+  if (active) result.active = active->stress();
+  return result;
+}
+
+template <class Real>
+bool ElasticBody<Real>::points_remember() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.in_points() && part.memory; });
+}
+
+/// Of quadratic elements: point kernels, or loops over virtual corners where a material has none.
 template <class Real>
 bool ElasticBody<Real>::quadratic_forces(const Real* x, Real* f, ThreadTeam& team) {
   const PointLayout& points = layout_->joints.points;
+  std::vector<PointTerms<Real>> terms;
+  for (const Part& part : parts_) terms.push_back(part.in_points() ? part.terms_of_points() : PointTerms<Real>());
+  if (points_remember()) {
+    evaluated_x_.assign(x, x + 3 * nodes());
+    evaluated_ = true;
+  }
   std::atomic<bool> valid{true};
   shared_force_.resize(3 * points.nodes.shared_slots);
   team.parallel_for(points.blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const Part& part = parts_[points.blocks[b].part];
-      const PointBlock<Real> block = point_block<Real>(*part.group, points, b, part.points.parameters,
-                                                       part.kappa_of_points(), shared_force_.data());
-      if (!part.points.kernel(part.points.law.get(), block, x, f)) valid.store(false, std::memory_order_relaxed);
+      const PointTerms<Real> of_part = of_block(terms[points.blocks[b].part], points.blocks[b]);
+      const PointBlock<Real> block =
+          point_block<Real>(*part.group, points, b, part.points.parameters,
+                            part.dilatation ? part.dilatation->kappa() : nullptr, shared_force_.data());
+      if (!part.points.kernel(part.points.law.get(), block, of_part, x, f))
+        valid.store(false, std::memory_order_relaxed);
     }
   });
   const bool has_points = !points.blocks.empty();
   if (has_points) points.nodes.template sum_shared<3>(shared_force_.data(), f, team);
-  const bool has_loops = std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.has_virtual_loops(); });
+  const bool has_loops = std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return !part.in_points(); });
   if (has_loops && !virtual_corner_forces(x, f, has_points, team)) valid = false;
   return valid;
 }
@@ -146,9 +170,11 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
       } else {
         info.instructions = part.in_points() ? name_of(part.points.instruction_set) : wide_instructions();
       }
-      if (part.points.law) info.kernel = part.terms.size() == 1 ? "points" : "points and corners";
+      if (part.points.law) info.kernel = "points";
       info.bytes_per_tet +=
           (part.in_points() ? of_points : 0) + corners * static_cast<double>(part.terms.size() - part.first_loop());
+      if (part.in_points() && part.memory)
+        info.bytes_per_tet += static_cast<double>(2 * sizeof(Real) * part.memory->numbers_a_slot());
       info.elements /= points_per_element();
       info.bytes_per_tet *= static_cast<double>(points_per_element());
     }

@@ -1,7 +1,9 @@
 // Internal state (viscosity, relaxation, plasticity) over time, and snapshots of it.
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/viscoelastic_term.hpp>
 
 namespace heml {
 template <class Real>
@@ -27,6 +29,7 @@ bool ElasticBody<Real>::has_internal_state() const {
 template <class Real>
 void ElasticBody<Real>::begin_step(Real h) {
   step_ = h;
+  evaluated_ = false;
   fans_.begin_step(h);
   for (Part& part : parts_)
     for (const auto& term : part.terms) term->begin_step(h);
@@ -53,8 +56,23 @@ void ElasticBody<Real>::update_slots() const {
   slots_are_old_ = false;
 }
 
+/// The state that point kernels wrote in the last evaluation, at x or else in another one, becomes the present one.
+template <class Real>
+void ElasticBody<Real>::commit_points(const Real* x) {
+  if (!points_remember()) return;
+  if (!evaluated_ || std::memcmp(evaluated_x_.data(), x, sizeof(Real) * 3 * nodes()) != 0) {
+    ThreadTeam alone(1);
+    std::vector<Real> unused(3 * nodes());
+    quadratic_forces(x, unused.data(), alone);
+  }
+  for (Part& part : parts_)
+    if (part.in_points() && part.memory) part.memory->advance(*part.group);
+  evaluated_ = false;
+}
+
 template <class Real>
 void ElasticBody<Real>::commit(const Real* x) {
+  commit_points(x);
   std::vector<Real> y;
   x = inner_positions(x, y);
   if (fans_.needs_state()) fans_.read_state(fan_slots());
@@ -62,7 +80,7 @@ void ElasticBody<Real>::commit(const Real* x) {
   const bool fans_know = flows_within_steps() && fans_.is_evaluated_at(x);
   fans_.commit(x);
   for (Part& part : parts_)
-    if (!part.in_fans)
+    if (!part.in_fans && !part.in_points())
       for (const auto& term : part.terms) term->commit(*part.group, x);
   flow(x, fans_know);
 }
@@ -129,6 +147,7 @@ void ElasticBody<Real>::end_flow_trial() {
 template <class Real>
 void ElasticBody<Real>::reset_history(const Real* x) {
   plastic_work_ = 0;
+  evaluated_ = false;
   std::vector<Real> y;
   x = inner_positions(x, y);
   for (Part& part : parts_) part.reset_history(x);
@@ -154,6 +173,7 @@ void ElasticBody<Real>::set_internal_state(const InternalState<Real>& state) {
       *list.values = *values++;
     }
   plastic_work_ = state.plastic_work;
+  evaluated_ = false;
   fans_.forget_state();
   slots_are_old_ = false;
 }
@@ -178,6 +198,7 @@ void ElasticBody<Real>::restore(const BodySnapshot<Real>& snapshot, const Real* 
   x = inner_positions(x, y);
   parts_.clear();
   slots_are_old_ = false;
+  evaluated_ = false;
   step_ = snapshot.step;
   activation_ = snapshot.activation;
   for (const auto& of_part : snapshot.parts) {

@@ -203,7 +203,7 @@ std::unique_ptr<GroupTerm<Real>> make_energy_term(const Material& material) {
   return term;
 }
 
-bool has_fan_kernel(const Material& material) {
+bool has_kernel(const Material& material) {
   const EnergyLaw* energy = find_energy_law(material.law);
   return !energy || !energy->info.is_principal;
 }

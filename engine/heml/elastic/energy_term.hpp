@@ -9,7 +9,7 @@ namespace heml {
 template <class Real>
 std::unique_ptr<GroupTerm<Real>> make_energy_term(const Material& material);
 
-/// Whether the fan kernels run the law: all do but expressions of stretches.
-bool has_fan_kernel(const Material& material);
+/// Whether kernels of fans and points run the law: all do but expressions of stretches.
+bool has_kernel(const Material& material);
 
 }  // namespace heml

@@ -84,17 +84,16 @@ void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law
     const bool relaxes = !law.relaxation.empty();
     terms.state = terms.viscous_state + (relaxes ? 6 * (1 + law.relaxation.size()) : 0);
     if (info.has_volume_term && (relaxes || material.volume_term != VolumeTerm::quadratic)) {
-      terms.volume = material.volume_term == VolumeTerm::quadratic     ? FanVolume::quadratic
-                     : material.volume_term == VolumeTerm::logarithmic ? FanVolume::logarithmic
-                                                                       : FanVolume::simo_taylor;
+      terms.has_volume = true;
+      terms.volume = material.volume_term;
       terms.kappa = static_cast<Real>(material.parameters[*volume_parameter(material, info)]);
     }
   }
   law.takes_pressure = part.nodal_pressure;
-  if (part.nodal_pressure) terms.volume = FanVolume::none;
+  if (part.nodal_pressure) terms.has_volume = false;
   assert(!terms.flows || terms.state == 0);
-  law.has_terms = terms.state > 0 || terms.volume != FanVolume::none || law.takes_pressure || !law.parameters.empty() ||
-                  terms.flows || (law.shape != FanShape::fibre && terms.fibre_constant > 0);
+  law.has_terms = terms.state > 0 || terms.has_volume || law.takes_pressure || !law.parameters.empty() || terms.flows ||
+                  (law.shape != FanShape::fibre && terms.fibre_constant > 0);
   terms.is_principal = law.shape == FanShape::principal;
   terms.is_continued = continuation;
   const FanTermKernels<Real> kernels = fan_term_kernels<Real>(isa_);

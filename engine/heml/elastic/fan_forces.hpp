@@ -102,7 +102,7 @@ class FanForces {
     FanTermKernel<Real> term_kernel;
     bool has_terms = false;  ///< else the law alone, with the same parameters in all elements, and active stress
     FanTerms<Real> terms;
-    std::vector<FanBranch<Real>> branches;
+    std::vector<RelaxationBranch<Real>> branches;
     std::vector<PronyTerm> relaxation;
     bool takes_pressure = false;
   };

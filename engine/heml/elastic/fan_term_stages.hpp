@@ -1,11 +1,11 @@
 #pragma once
 // The kernels of elastic/fan_terms.hpp. Stages that no law decides are compiled once for each instruction set and
 // scalar, so that a law adds its tensions alone to the code.
+#include <heml/elastic/added_volume.hpp>
 #include <heml/elastic/fan_energy.hpp>
 #include <heml/elastic/fan_flow_tensions.hpp>
 #include <heml/elastic/fan_force_kernel.hpp>
 #include <heml/elastic/fan_term_kernels.hpp>
-#include <heml/materials/volume.hpp>
 
 namespace heml::fan {
 
@@ -88,26 +88,14 @@ struct TermStages {
     return rest;
   }
 
-  /// wJ of a volume term with κ = 1.
-  [[gnu::always_inline]] static inline P volume_derivative(const FanTerms<Real>& terms, P J, Mask<P>& valid) {
-    const auto of = [&](const auto& law) {
-      const Invariants<P> at{P(3), P(3), J};
-      valid = valid && law.valid(at);
-      return law.first_derivatives(at).wJ;
-    };
-    if (terms.volume == FanVolume::quadratic) return J - P(1);
-    if (terms.volume == FanVolume::logarithmic)
-      return terms.is_continued ? of(VolumeLaw<P, true, false>{P(1)}) : of(VolumeLaw<P, false, false>{P(1)});
-    return terms.is_continued ? of(VolumeLaw<P, true, true>{P(1)}) : of(VolumeLaw<P, false, true>{P(1)});
-  }
-
   static void add_volume(const FanTerms<Real>& terms, const Group& group, Work& work, Mask<P>& valid) {
     P scale = terms.kappa * Real(-1.0 / 6);
     const Real* constant = group.rest;
     for (std::size_t i = 1; i <= group.m; ++i, constant += terms.constants * lanes) {
       const P k = pack_at<P>(constant + 4 * lanes);
       if (terms.kappa_constant) scale = pack_at<P>(constant + terms.kappa_constant * lanes) * Real(-1.0 / 6);
-      work.tensions[i].u += scale * volume_derivative(terms, k * six_volumes(work, i), valid);
+      work.tensions[i].u +=
+          scale * added_volume_derivative(terms.volume, terms.is_continued, k * six_volumes(work, i), valid);
     }
   }
 
@@ -220,7 +208,7 @@ struct TermStages {
     if (terms.viscous_state > 0) add_viscosity(terms, group, work, state, next);
     if (terms.pressure)
       add_pressure(group, work, records, index);
-    else if (terms.volume != FanVolume::none)
+    else if (terms.has_volume)
       add_volume(terms, group, work, valid);
     if (terms.active != 0) add_active(terms, group, work);
   }

@@ -20,21 +20,9 @@
 //
 // Plain data only: files compiled for other instruction sets include this header.
 #include <heml/elastic/fan_block.hpp>
+#include <heml/elastic/term_values.hpp>
 
 namespace heml {
-
-/// |J| below which elements remember less of their stress (elastic/viscoelastic_loops.hpp).
-constexpr double min_remembered_J = 0.2;
-
-/// A branch of relaxation during one step of h seconds.
-template <class Real>
-struct FanBranch {
-  Real decay;  ///< e^(−h/τ)
-  Real gain;   ///< γ e^(−h/2τ)
-};
-
-/// A volume term that the law does not have: none, κ/2 (J−1)², or those of VolumeLaw.
-enum class FanVolume { none, quadratic, logarithmic, simo_taylor };
 
 /// Numbers a tetrahedron of elastic/fan_flow.hpp.
 constexpr std::size_t fan_flow_numbers = 7;
@@ -51,11 +39,12 @@ struct FanTerms {
   Real eta = 0, zeta = 0;         ///< Pa s
   Real per_step = 0;              ///< 1/h, or 0
   std::size_t viscous_state = 0;  ///< numbers of state a tetrahedron: 6 or 0
-  const FanBranch<Real>* branches = nullptr;
+  const RelaxationBranch<Real>* branches = nullptr;
   std::size_t branch_count = 0;
   Real weight = 0;        ///< Σ gain
   std::size_t state = 0;  ///< numbers of state a tetrahedron
-  FanVolume volume = FanVolume::none;
+  bool has_volume = false;  ///< a volume term that the law does not have
+  VolumeTerm volume = VolumeTerm::quadratic;
   bool is_continued = false;
   Real kappa = 0;                  ///< Pa
   std::size_t kappa_constant = 0;  ///< which constant is κ instead; 0: none

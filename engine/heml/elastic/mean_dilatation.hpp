@@ -69,7 +69,6 @@ class MeanDilatation {
   /// p of a slot at the point of linearise(), Pa.
   Real pressure(std::size_t s) const { return pressure_[s / 4]; }
   const Real* kappa() const { return kappa_.data(); }  ///< κ̄ of each slot, padded
-  bool is_quadratic() const { return term_ == VolumeTerm::quadratic; }
   std::size_t bytes() const { return bytes_of(kappa_, pressure_, outer_); }
 
  private:

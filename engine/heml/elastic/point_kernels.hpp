@@ -1,12 +1,14 @@
 #pragma once
-// Forces of a law at the points of quadratic elements, straight from the elements' ten nodes to them. Each instruction
-// set has a file of its own (engine/CMakeLists.txt); loops over virtual corners (group_loops.hpp) do the rest: other
-// terms, volume terms that are not quadratic, laws by expression, processors without AVX2.
+// Forces at the points of quadratic elements, of a law and the terms beside it, straight from the elements' ten nodes
+// to them. Each instruction set has a file of its own (engine/CMakeLists.txt); loops over virtual corners
+// (group_loops.hpp) do the rest: laws by expression of stretches, processors without AVX2.
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/elastic/point_layout.hpp>
+#include <heml/elastic/point_terms.hpp>
 #include <heml/elastic/quadratic_map.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace heml {
@@ -29,7 +31,7 @@ struct PointBlock {
   std::size_t parameters;      ///< of the law that differ between elements
   const Real* parameter[max_point_parameters];     ///< of the points as A
   std::size_t parameter_at[max_point_parameters];  ///< which of the law's it is
-  const Real* kappa;  ///< Pa, of a quadratic volume term at the mean volume ratio (mean_dilatation.hpp), or null
+  const Real* kappa;           ///< Pa, of the volume term at the mean volume ratio (mean_dilatation.hpp), or null
   const std::uint32_t* place;  ///< 3 n of the block's nodes n: its own first, then those shared with other blocks
   std::size_t own, nodes;      ///< number of own nodes, whose forces are written to f directly, and of all
   Real* shared_force;          ///< 3 a shared node, summed later in the order of blocks
@@ -45,9 +47,11 @@ PointBlock<Real> point_block(const ElementGroup<Real>& group, const PointLayout&
                              std::span<const PointParameter> parameters, const Real* kappa, Real* of_slot);
 
 /// Writes the forces (N) of a block at positions x (3 #V, m) into f (3 #V) and shared_force, overwritten. `law`: as a
-/// struct of Real. Returns whether the law is defined at all points. Threads may call it on different blocks.
+/// struct of Real; terms: of_block(). Returns whether the law and the terms are defined at all points. Threads may call
+/// it on different blocks.
 template <class Real>
-using PointKernel = bool (*)(const void* law, const PointBlock<Real>& block, const Real* x, Real* f);
+using PointKernel = bool (*)(const void* law, const PointBlock<Real>& block, const PointTerms<Real>& terms,
+                             const Real* x, Real* f);
 
 /// The law of a material that point kernels take, without a volume term that is a term of its own, else null; and the
 /// kernel, null where the processor or `portable` has none and loops over virtual corners compute the same.
@@ -56,17 +60,28 @@ struct PointForces {
   PointKernel<Real> kernel = nullptr;
   std::shared_ptr<const void> law;
   std::vector<PointParameter> parameters = {};
+  PointTerms<Real> terms = {};             ///< its volume term: the rest is ViscoelasticTerm's and ActiveTerm's
+  std::optional<std::size_t> kappa_field;  ///< which of ElementGroup::parameters is that term's κ
   InstructionSet instruction_set = InstructionSet::portable;
 };
+
+/// Of the slots of a block alone, from those of the group. Lists that are null stay so.
+template <class Real>
+PointTerms<Real> of_block(PointTerms<Real> terms, const PointLayout::Block& block);
 
 /// isa: supported by the processor (asserted).
 template <class Real>
 PointForces<Real> point_forces(const Material& material, bool continuation, InstructionSet isa);
 
-// Of the law with that index in LawList; each is defined in its own file.
+// Of the law with that index in LawList, or of InvariantEnergy<Real, false, with_fibre>; each is defined in its own
+// file.
 template <class Real>
 PointKernel<Real> avx2_point_kernel(std::size_t law, bool continued);
 template <class Real>
+PointKernel<Real> avx2_point_energy_kernel(bool with_fibre);
+template <class Real>
 PointKernel<Real> avx512_point_kernel(std::size_t law, bool continued);
+template <class Real>
+PointKernel<Real> avx512_point_energy_kernel(bool with_fibre);
 
 }  // namespace heml

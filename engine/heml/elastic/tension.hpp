@@ -77,19 +77,16 @@ template <class Real>
   congruence3(Lt, G, C);
 }
 
-/// Edges, Gram matrix and invariants of an element. Computes I2, J, I4 and I5 only if needed; else I2 = 0 and the
-/// others are 1.
-template <bool need_I2, bool need_J, bool need_I4, bool need_I5, class Real>
-[[gnu::always_inline]] inline ElementKinematics<Real> element_kinematics(const Real* x0, const Real* x1, const Real* x2,
-                                                                         const Real* x3, const RestShape<Real>& rest) {
-  ElementKinematics<Real> kinematics;
+/// Edges and Gram matrix of an element; if needed, cross products and J, else J = 1.
+template <bool need_J, class Real>
+[[gnu::always_inline]] inline void put_edges(const Real* x0, const Real* x1, const Real* x2, const Real* x3,
+                                             Real volume, ElementKinematics<Real>& kinematics) {
   for (int i = 0; i < 3; ++i) {
     kinematics.e[0][i] = x1[i] - x0[i];
     kinematics.e[1][i] = x2[i] - x0[i];
     kinematics.e[2][i] = x3[i] - x0[i];
   }
   const auto& e = kinematics.e;
-  const Real* A = rest.A;
   const auto dot = [](const Real* a, const Real* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   kinematics.G[0] = dot(e[0], e[0]);
   kinematics.G[1] = dot(e[1], e[1]);
@@ -97,10 +94,19 @@ template <bool need_I2, bool need_J, bool need_I4, bool need_I5, class Real>
   kinematics.G[3] = dot(e[0], e[1]);
   kinematics.G[4] = dot(e[0], e[2]);
   kinematics.G[5] = dot(e[1], e[2]);
-  const Real* G = kinematics.G;
+  kinematics.at.J = 1;
+  if constexpr (need_J) {
+    cross_edges(e, kinematics.cross);
+    kinematics.at.J = dot(e[0], kinematics.cross[0]) / (6 * volume);
+  }
+}
+
+/// I1 from the Gram matrix; if needed, I2, I4 and I5, else I2 = 0 and the others are 1.
+template <bool need_I2, bool need_I4, bool need_I5, class Real>
+[[gnu::always_inline]] inline void put_invariants(const RestShape<Real>& rest, ElementKinematics<Real>& kinematics) {
+  const Real *A = rest.A, *G = kinematics.G;
   kinematics.at.I1 = double_contraction3(A, G);
   kinematics.at.I2 = 0;
-  kinematics.at.J = 1;
   kinematics.at.I4 = 1;
   kinematics.at.I5 = 1;
   if constexpr (need_I2) {
@@ -113,17 +119,22 @@ template <bool need_I2, bool need_J, bool need_I4, bool need_I5, class Real>
                           2 * (m[0][1] * m[1][0] + m[0][2] * m[2][0] + m[1][2] * m[2][1]);
     kinematics.at.I2 = (kinematics.at.I1 * kinematics.at.I1 - trace_C2) / 2;
   }
-  if constexpr (need_J) {
-    cross_edges(e, kinematics.cross);
-    kinematics.at.J = dot(e[0], kinematics.cross[0]) / (6 * rest.volume);
-  }
   if constexpr (need_I4) kinematics.at.I4 = bilinear3(rest.fibre, G, rest.fibre);
   if constexpr (need_I5) {
     Real Gm[3];
     times3(G, rest.fibre, Gm);
     times3(A, Gm, kinematics.n);
-    kinematics.at.I5 = dot(Gm, kinematics.n);
+    kinematics.at.I5 = Gm[0] * kinematics.n[0] + Gm[1] * kinematics.n[1] + Gm[2] * kinematics.n[2];
   }
+}
+
+/// Edges, Gram matrix and invariants of an element, of which those that are not needed are as above.
+template <bool need_I2, bool need_J, bool need_I4, bool need_I5, class Real>
+[[gnu::always_inline]] inline ElementKinematics<Real> element_kinematics(const Real* x0, const Real* x1, const Real* x2,
+                                                                         const Real* x3, const RestShape<Real>& rest) {
+  ElementKinematics<Real> kinematics;
+  put_edges<need_J>(x0, x1, x2, x3, rest.volume, kinematics);
+  put_invariants<need_I2, need_I4, need_I5>(rest, kinematics);
   return kinematics;
 }
 

@@ -4,23 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/avx2_dispatch.hpp>
-#include <heml/elastic/fan_terms.hpp>
 #include <heml/elastic/group_term.hpp>
+#include <heml/elastic/remembered_tensions.hpp>
 #include <span>
 
 namespace heml {
-
-/// Adds the viscous tensions V (η A dG A + ζ/2 (A:dG) A) / h.
-template <class Real>
-[[gnu::always_inline]] inline void add_viscous_tensions(const Real dG[6], const RestShape<Real>& rest, Real eta,
-                                                        Real zeta, Real per_step, Real T[6]) {
-  const Real* A = rest.A;
-  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
-  Real AdGA[6];
-  congruence3(a, dG, AdGA);
-  const Real bulk = zeta / 2 * double_contraction3(A, dG), scale = rest.volume * per_step;
-  for (int i = 0; i < 6; ++i) T[i] += scale * (eta * AdGA[i] + bulk * A[i]);
-}
 
 /// A term's parameters and state during a step. law: packet_tensions() of the isochoric law in the packets that are
 /// evaluated; null without branches, of which there are then none.
@@ -28,7 +16,7 @@ template <class Real>
 struct MemoryOf {
   Real eta, zeta, per_step, weight;
   std::size_t stride;
-  std::span<const FanBranch<Real>> branches;
+  std::span<const RelaxationBranch<Real>> branches;
   const Real* law = nullptr;
 };
 
@@ -41,8 +29,8 @@ template <class Real>
 
 /// Adds the tensions that are constant during a step: Σ_branches (decay Q − gain T_iso) of a slot's committed state.
 template <class Real>
-[[gnu::always_inline]] inline void add_fixed_tensions(std::span<const FanBranch<Real>> branches, const Real* of_slot,
-                                                      Real T[6]) {
+[[gnu::always_inline]] inline void add_fixed_tensions(std::span<const RelaxationBranch<Real>> branches,
+                                                      const Real* of_slot, Real T[6]) {
   for (std::size_t b = 0; b < branches.size(); ++b)
     for (std::size_t i = 0; i < 6; ++i)
       T[i] += branches[b].decay * of_slot[12 + 6 * b + i] - branches[b].gain * of_slot[6 + i];
@@ -208,28 +196,9 @@ HEML_WIDE void wide_memory_energies(const MemoryOf<Real>& of, const ElementGroup
   }
 }
 
-/// Tensions with the law's wJ expressed as tensions, wJ (cross_a·cross_b) / (36 V J), for an element to remember. Below
-/// |J| = min_remembered_J they fade with J²: those of an element that is crushed to nothing are without bound, and
-/// would throw it once it has its volume again.
-template <class Real>
-[[gnu::always_inline]] inline void put_total_tensions(const Tensions<Real>& law,
-                                                      const ElementKinematics<Real>& kinematics, Real volume,
-                                                      Real T[6]) {
-  constexpr Real limit = Real(min_remembered_J) * Real(min_remembered_J);
-  const Real J = kinematics.at.J;
-  const bool is_crushed = J * J < limit;
-  const Real fade = is_crushed ? J * J / limit : Real(1);
-  const Real scale = (is_crushed ? law.wJ * (J / limit) : law.wJ) / (36 * volume * (is_crushed ? Real(1) : J));
-  constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
-  for (int k = 0; k < 6; ++k) {
-    const Real *p = kinematics.cross[row[k]], *q = kinematics.cross[col[k]];
-    T[k] = fade * law.T[k] + scale * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
-  }
-}
-
 /// The total tensions T of a slot replace those before; the branches follow their change.
 template <class Real>
-[[gnu::always_inline]] inline void store_tensions(std::span<const FanBranch<Real>> branches, const Real T[6],
+[[gnu::always_inline]] inline void store_tensions(std::span<const RelaxationBranch<Real>> branches, const Real T[6],
                                                   Real* of_slot) {
   for (std::size_t b = 0; b < branches.size(); ++b) {
     Real* Q = of_slot + 12 + 6 * b;
@@ -257,7 +226,7 @@ template <bool relaxes, class Real>
         Real total[6];
         for (std::size_t i = 0; i < 6; ++i) law.T[i] = law_entry(of.law, p - begin, i, l);
         law.wJ = law_entry(of.law, p - begin, 6, l);
-        put_total_tensions(law, kinematics, packet.volume[l], total);
+        put_total_tensions(law, kinematics.cross, kinematics.at.J, packet.volume[l], total);
         for (int i = 0; i < 6; ++i) T[i][l] = total[i];
       }
     }

@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <heml/elastic/viscoelastic_loops.hpp>
 #include <heml/elastic/viscoelastic_term.hpp>
 
 namespace heml {
 template <class Real>
-FanBranch<Real> branch_during(Real gamma, Real tau, Real h) {
+RelaxationBranch<Real> branch_during(Real gamma, Real tau, Real h) {
   return {natural_exp(-h / tau), gamma * natural_exp(-h / (2 * tau))};
 }
 
@@ -85,6 +86,22 @@ void ViscoelasticTerm<Real>::commit(const Group& group, const Real* x) {
     total_tensions(group, s, kinematics, rest, T);
     store_tensions<Real>(steps_, T, state_of(s));
   }
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::put_in_points(PointTerms<Real>& terms) {
+  if (next_.size() != state_.size()) next_ = state_;
+  terms.eta = eta_, terms.zeta = zeta_, terms.per_step = per_step_;
+  terms.branches = steps_.data(), terms.branch_count = steps_.size(), terms.weight = weight_;
+  terms.state = stride_, terms.before = state_.data(), terms.next = next_.data();
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::advance(const Group& group) {
+  assert(next_.size() == state_.size());
+  std::swap(state_, next_);
+  for (std::size_t s = group.size(); s < group.volume.size(); ++s)  // padding repeats the last slot
+    std::copy_n(state_of(group.size() - 1), stride_, state_of(s));
 }
 
 template <class Real>
@@ -228,11 +245,11 @@ template <class Real>
 void ViscoelasticTerm<Real>::total_tensions(const Group& group, std::size_t s,
                                             const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
                                             Real T[6]) const {
-  put_total_tensions(law_->tensions(group, s, kinematics, rest), kinematics, rest.volume, T);
+  put_total_tensions(law_->tensions(group, s, kinematics, rest), kinematics.cross, kinematics.at.J, rest.volume, T);
 }
 
-template FanBranch<float> branch_during(float, float, float);
-template FanBranch<double> branch_during(double, double, double);
+template RelaxationBranch<float> branch_during(float, float, float);
+template RelaxationBranch<double> branch_during(double, double, double);
 template class ViscoelasticTerm<float>;
 template class ViscoelasticTerm<double>;
 

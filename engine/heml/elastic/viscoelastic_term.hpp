@@ -13,9 +13,11 @@
 //   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   at the last commit()
 //
 // Where fans evaluate the forces of the group, they keep the state in their own layout (elastic/fan_state.hpp), and
-// ElasticBody copies it here for everything else.
-#include <heml/elastic/fan_terms.hpp>
+// ElasticBody copies it here for everything else. Kernels of points (elastic/point_stages.hpp) read the state from here
+// and write the next one beside it.
 #include <heml/elastic/group_term.hpp>
+#include <heml/elastic/point_terms.hpp>
+#include <heml/math/bytes.hpp>
 
 namespace heml {
 
@@ -24,7 +26,7 @@ struct MemoryOf;
 
 /// A branch of relaxation in a step of h seconds.
 template <class Real>
-FanBranch<Real> branch_during(Real gamma, Real tau, Real h);
+RelaxationBranch<Real> branch_during(Real gamma, Real tau, Real h);
 
 template <class Real>
 class ViscoelasticTerm final : public GroupTerm<Real> {
@@ -63,6 +65,11 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   void reset_history(const Group& group, const Real* x) override;
   /// frequency_bound() leaves out the stress that the state holds, which the fans know (FanForces::state_bound()).
   void leave_state_to_fans() { in_fans_ = true; }
+  /// What kernels of points need: the next state they write, which advance() makes the present one.
+  void put_in_points(PointTerms<Real>& terms);
+  void advance(const Group& group);
+  std::size_t numbers_a_slot() const { return stride_; }
+  std::size_t scratch_bytes() const { return bytes_of(next_); }
   SlotStates<Real> slot_states() override { return {{&state_, stride_}}; }
   void reshape(const std::vector<SubelementMap<Real>>& subelement_maps) override;
   /// Adds to a slot's state, `sign` times, what a commit at x would store of x itself: G0 and T0.
@@ -84,12 +91,12 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   std::unique_ptr<GroupTerm<Real>> law_;
   Real eta_, zeta_;  ///< Pa s
   std::vector<Branch> branches_;
-  std::vector<FanBranch<Real>> steps_;  ///< of branches_, during the step
+  std::vector<RelaxationBranch<Real>> steps_;  ///< of branches_, during the step
   Real total_gamma_ = 0;
   Real per_step_ = 0;        ///< 1/h
   Real weight_ = 0;          ///< Σ gain
   std::size_t stride_ = 12;  ///< values per slot of state_
-  std::vector<Real> state_;
+  std::vector<Real> state_, next_;  ///< next_: as kernels of points have written it, else empty or of any content
   bool in_fans_ = false;
 };
 

@@ -2,6 +2,7 @@
 // A material as a scene gives it: law, parameters, density, viscosity, relaxation and plasticity. The engine converts
 // it to a law's struct when a body is built or its law is switched (laws.hpp, with_law).
 #include <heml/materials/law.hpp>
+#include <heml/materials/volume_term.hpp>
 #include <heml/math/types.hpp>
 #include <optional>
 #include <span>
@@ -12,12 +13,6 @@
 
 namespace heml {
 
-/// Volume term ψ(J) of a law that has a separate one; κ is the bulk modulus at rest. `quadratic` is the default.
-enum class VolumeTerm {
-  quadratic,    ///< κ/2 (J−1)²
-  logarithmic,  ///< κ/2 (ln J)²
-  simo_taylor   ///< κ/4 (J² − 1 − 2 ln J)
-};
 std::span<const std::string_view> volume_term_names();  ///< as in scene files, in the order of the enum
 
 /// One Prony branch of quasi-linear viscoelasticity: G(t)/G∞ = 1 + Σ γ exp(−t/τ), on the isochoric part.

@@ -7,7 +7,7 @@ namespace heml {
 
 /// Raised by every change that alters a bit of any state: a recording of another revision cannot be compared. A change
 /// without it fails the golden recordings (tests/golden).
-constexpr long kernel_revision = 19;
+constexpr long kernel_revision = 20;
 
 std::string compiler_name();  ///< "GCC 12.2.0"
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/energy_term.hpp>
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/materials/parameter_slots.hpp>
 
+#include "engine/materials/energy_materials.hpp"
 #include "quadratic_body.hpp"
 
 namespace heml::point_kernels_test {
@@ -129,7 +131,7 @@ TEST_CASE("point kernels: bodies of several blocks, which share nodes") {
   Material varying = sample_material("neo_hookean_iso");
   test::vary_parameters(varying, sample.body.mesh, random);
   check_law<double>(sample, varying, false, true, 1e-12);
-  // Beside a part in loops.
+  // Beside a part with a further term.
   ThreadTeam team(1), many(3);
   Material plain = sample_material("neo_hookean"), viscous = plain;
   viscous.volume_term = VolumeTerm::quadratic, viscous.viscosity = 1;
@@ -167,31 +169,131 @@ TEST_CASE("point kernels: an undefined law is told of one element, whichever lan
   }
 }
 
-TEST_CASE("point kernels: other terms take the loops, beside the law in its kernel") {
+/// Materials of a law with each further term, and with all of them.
+std::vector<Material> with_terms(const Material& plain) {
+  std::vector<Material> result;
+  const auto add = [&](const auto& change) { change(result.emplace_back(plain)); };
+  add([](Material& m) { m.viscosity = 2, m.bulk_viscosity = 1; });
+  add([](Material& m) { m.relaxation = {{0.4, 0.02}}; });
+  add([](Material& m) { m.relaxation = {{0.4, 0.02}, {0.2, 0.005}, {0.7, 0.1}}; });
+  add([](Material& m) { m.volume_term = VolumeTerm::logarithmic; });
+  add([](Material& m) { m.volume_term = VolumeTerm::simo_taylor; });
+  add([](Material& m) { m.active_stress = 3000, m.fibre = Vec3(0.6, 0, 0.8); });
+  add([](Material& m) {
+    m.viscosity = 2, m.relaxation = {{0.4, 0.02}, {0.2, 0.005}}, m.volume_term = VolumeTerm::simo_taylor;
+    m.active_stress = 3000, m.fibre = Vec3(0.6, 0, 0.8);
+  });
+  return result;
+}
+
+/// Steps of two bodies through the same positions: forces agree, and so do internal states at the end.
+template <class Real>
+void check_steps(const Sample& sample, const Material& material, bool pressure, InstructionSet isa, double tolerance) {
+  ThreadTeam team(1), many(3);
+  std::mt19937_64 random(67);
+  const std::vector<Material> materials(2, material);
+  const auto loops = sample.of<Real>(materials, false, pressure, InstructionSet::portable),
+             points = sample.of<Real>(materials, false, pressure, isa);
+  CHECK(points->kernels()[0].kernel == "points");
+  CHECK(points->kernels()[0].instructions == name_of(isa));
+  std::vector<Real> x = converted<Real>(sample.body.x), expected(x.size()), f(x.size()), again(x.size());
+  for (int step = 0; step < 4; ++step) {
+    for (Real& value : x) value += static_cast<Real>(test::uniform(random, -1e-4, 1e-4));
+    for (const auto& body : {loops.get(), points.get()}) body->begin_step(Real(0.003));
+    CHECK(loops->forces(x.data(), expected.data(), team));
+    CHECK(points->forces(x.data(), f.data(), team));
+    Real size = 0;
+    for (const Real value : expected) size = std::max(size, std::abs(value));
+    for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - expected[i]) <= tolerance * size);
+    points->forces(x.data(), again.data(), many);
+    CHECK(f == again);
+    if (step == 2) points->forces(converted<Real>(sample.body.x).data(), again.data(), team);  // not where it commits
+    for (const auto& body : {loops.get(), points.get()}) body->commit(x.data());
+  }
+  const InternalState<Real> by_loops = loops->internal_state(), by_points = points->internal_state();
+  REQUIRE(by_loops.values.size() == by_points.values.size());
+  for (std::size_t k = 0; k < by_loops.values.size(); ++k) {
+    Real size = 0;
+    for (const Real value : by_loops.values[k]) size = std::max(size, std::abs(value));
+    REQUIRE(by_loops.values[k].size() == by_points.values[k].size());
+    const std::size_t each = 12 + 6 * material.relaxation.size(), first = material.viscosity > 0 ? 0 : 6;
+    for (std::size_t i = 0; i < by_loops.values[k].size(); ++i)
+      if (i % each >= first)  // without viscosity Gram matrices are not used
+        CHECK(std::abs(by_loops.values[k][i] - by_points.values[k][i]) <= tolerance * size);
+  }
+}
+
+TEST_CASE("point kernels: terms beside the law are those of the loops, over steps") {
   std::mt19937_64 random(64);
+  Sample sample(random);
+  for (const auto law : {"neo_hookean_iso", "mooney_rivlin", "ogden", "hgo"}) {
+    CAPTURE(std::string(law));
+    Material plain = sample_material(law);
+    for (const bool varies : {false, true}) {
+      if (varies) test::vary_parameters(plain, sample.body.mesh, random);
+      for (Material material : with_terms(plain)) {
+        if (std::string_view(law) == "hgo") material.fibre = plain.fibre;
+        const InstructionSet best = instruction_sets().back();
+        for (const bool pressure : {false, true}) check_steps<double>(sample, material, pressure, best, 1e-11);
+        check_steps<float>(sample, material, false, best, 1e-3);
+      }
+    }
+  }
+  for (const InstructionSet isa : instruction_sets())
+    if (isa != InstructionSet::portable)
+      check_steps<double>(sample, with_terms(sample_material("neo_hookean_iso")).back(), false, isa, 1e-11);
+}
+
+TEST_CASE("point kernels: laws by expression, alone and with viscosity") {
+  std::mt19937_64 random(70);
   const Sample sample(random);
-  const InstructionSet best = instruction_sets().back();
-  Material viscous = sample_material("neo_hookean_iso"), logarithmic = viscous;
-  viscous.viscosity = 1;
-  logarithmic.volume_term = VolumeTerm::logarithmic;
-  const auto kernel_of = [&](const Material& material) {
-    return sample.of<double>({material, material}, false, false, best)->kernels()[0].kernel;
-  };
-  CHECK(kernel_of(viscous) == "points and corners");
-  CHECK(kernel_of(logarithmic) == "points and corners");
-  // Side by side with one of a law alone: each adds up to what it is alone.
+  for (const test::SameEnergy& same : test::same_energies()) {
+    if (!has_kernel(same.expression)) continue;
+    CAPTURE(same.expression.law);
+    Material viscous = same.expression;
+    viscous.viscosity = 2;
+    for (const Material& material : {same.expression, viscous}) {
+      check_law<double>(sample, material, false, false, 1e-11);
+      check_law<float>(sample, material, false, false, 2e-3);
+    }
+  }
+}
+
+TEST_CASE("point kernels: a state goes on where it was restored, to the bit") {
+  std::mt19937_64 random(68);
+  const Sample sample(random);
   ThreadTeam team(1);
-  const Material plain = sample_material("neo_hookean_iso");
-  std::vector<double> f(sample.body.x.size()), expected(f.size());
+  const std::vector<Material> materials(2, with_terms(sample_material("neo_hookean_iso")).back());
+  const auto body = sample.of<double>(materials, false, false, instruction_sets().back());
+  std::vector<double> x = sample.body.x, f(x.size()), expected(x.size());
+  const auto step = [&](double shift, std::vector<double>& force) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = sample.body.x[i] * (1 + shift);
+    body->begin_step(0.003);
+    body->forces(x.data(), force.data(), team);
+    body->commit(x.data());
+  };
+  step(0.01, f), step(0.02, f);
+  const auto snapshot = body->snapshot();
+  const std::vector<double> there = x;
+  step(0.03, f), step(0.05, expected);
+  body->restore(snapshot, there.data());
+  step(0.03, f), step(0.05, f);
+  CHECK(f == expected);
+}
+
+TEST_CASE("point kernels: a volume term that is not defined is told") {
+  std::mt19937_64 random(69);
+  const Sample sample(random);
+  ThreadTeam team(1);
+  Material material = sample_material("neo_hookean_iso");
+  material.volume_term = VolumeTerm::logarithmic;
+  std::vector<double> mirrored = sample.body.x, f(mirrored.size());
+  for (std::size_t i = 0; i < mirrored.size(); i += 3) mirrored[i] *= -1;
   for (const bool pressure : {false, true})
-    for (const Material& other : {viscous, logarithmic}) {
-      const auto mixed = sample.of<double>({plain, other}, false, pressure, best),
-                 loops = sample.of<double>({plain, other}, false, pressure, InstructionSet::portable);
-      CHECK(mixed->kernels().size() == 2);
-      for (const auto& body : {mixed.get(), loops.get()}) body->begin_step(0.01);
-      mixed->forces(sample.body.x.data(), f.data(), team);
-      loops->forces(sample.body.x.data(), expected.data(), team);
-      for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - expected[i]) <= 1e-12 * test::largest(expected));
+    for (const InstructionSet isa : instruction_sets()) {
+      const auto body = sample.of<double>({material, material}, false, pressure, isa);
+      CHECK(body->forces(sample.body.x.data(), f.data(), team));
+      CHECK_FALSE(body->forces(mirrored.data(), f.data(), team));
     }
 }
 
