@@ -73,6 +73,12 @@ class SceneMisfit {
       u[static_cast<Eigen::Index>(i)] = positive_[i] ? std::log(initial_[i]) : initial_[i] / scale_[i];
     return u;
   }
+  /// 1 where a number stays positive, else 0.
+  Vector positive() const {
+    Vector result(std::ssize(starts_));
+    for (std::size_t i = 0; i < starts_.size(); ++i) result[static_cast<Eigen::Index>(i)] = positive_[i] ? 1 : 0;
+    return result;
+  }
   double value(std::size_t i, const Vector& u) const {
     const double at = u[static_cast<Eigen::Index>(i)];
     return positive_[i] ? std::exp(at) : at * scale_[i];
@@ -129,6 +135,17 @@ class SceneMisfit {
   int equilibria_ = 0;
 };
 
+/// The start with all numbers that stay positive multiplied by the factor that fits best: how stiff a body is as a
+/// whole places tell first, and far from that derivatives mislead.
+Vector common_multiple(const LeastSquaresProblem& problem, const SceneMisfit& misfit) {
+  const Vector start = misfit.start(), shared = misfit.positive();
+  const auto along = [&](const Vector& t) { return problem.residuals(start + t[0] * shared); };
+  LeastSquaresOptions options;
+  options.max_iterations = most_iterations;
+  options.change = 1, options.step = 1e-3;
+  return start + minimise_squares({along, problem.difference_step}, Vector::Zero(1), options).u[0] * shared;
+}
+
 }  // namespace
 
 MeasuredPlaces read_places_csv(const std::filesystem::path& path) {
@@ -182,8 +199,14 @@ SceneFit fit_scene(const Scene& scene, const MeasuredPlaces& measured, const std
   options.change = 1;  // the step decides: measured places are not met exactly
   options.step = 1e-7;
   options.progress = progress;
-  const LeastSquaresFit found =
-      minimise_squares({[&](const Vector& u) { return misfit.residuals(u); }, difference}, misfit.start(), options);
+  const LeastSquaresProblem problem{[&](const Vector& u) { return misfit.residuals(u); }, difference};
+  LeastSquaresFit found = minimise_squares(problem, misfit.start(), options);
+  if (!found.converged && misfit.positive().sum() > 1) {
+    LeastSquaresFit again = minimise_squares(problem, common_multiple(problem, misfit), options);
+    const bool is_better = again.converged || again.r.squaredNorm() < found.r.squaredNorm();
+    again.iterations += found.iterations;
+    if (is_better) found = std::move(again);
+  }
 
   SceneFit fit;
   const bool knows_sigma = !measured.sigma.empty();

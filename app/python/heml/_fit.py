@@ -20,6 +20,11 @@ Bounds = tuple[float, float, float]
 
 _step = 1e-3  # of differences between equilibria, relative to the parameter
 _fine = 0.1  # step of differences of the residual, relative to that: they are of fourth order and without a solver
+_little = 1e-6  # fall of the misfit that is none, relative to it
+_short = 1e-4  # step that is none: of logarithms of parameters
+_far = 20.0  # change of the logarithm of a parameter that no measurement asks for: a factor of 5e8
+_reach = 25.0  # largest one
+_not_least = "the search ended where a step would still lower the misfit: begin nearer to the solution, or give bounds"
 _agreement = 1e-5  # residual of the engine's equilibrium, relative to the external forces
 
 
@@ -52,7 +57,9 @@ class FitResult:
     solves: int
     """Equilibria that were computed."""
     converged: bool
+    """Whether no step lowers the misfit any more, to first order, and no parameter ran away."""
     message: str
+    """Why the search ended."""
 
     def __str__(self) -> str:
         lines = [f"{'parameter':32} {'value':>13} {'standard error':>15}   95 % confidence"]
@@ -77,7 +84,7 @@ class Misfit:
         name_moduli(given, paths)
         frozen = with_selected_nodes(given, np.asarray(rest_world(given).positions()))
         settings = {key: value for key, value in frozen.get("solver", {}).items() if key == "element"}
-        frozen["solver"] = settings | {"integrator": "static", "tolerance": 1e-11}
+        frozen["solver"] = settings | {"integrator": "static", "tolerance": 1e-9}
         for key in ("events", "outputs", "checkpoints", "recorded"):
             frozen.pop(key, None)
         self.nodes, self.measured, self.paths = nodes, measured, list(paths)
@@ -165,7 +172,7 @@ def fit(
         InputError: observations of wrong shape, unknown paths.
         NotConverged: no equilibrium at the initial values.
     """
-    optimize = require("scipy.optimize", "fit")
+    require("scipy.optimize", "fit")
     given = _as_dict(scene)
     named = _named(parameters)
     name_moduli(given, named)
@@ -178,11 +185,36 @@ def fit(
         raise heml.InputError(f"observations: node {nodes.max()}; the mesh has {len(misfit.equilibrium.rest)} nodes")
     search = _Search(misfit, list(bounds.values()), np.ones((1, 3)) if sigma is None else sigma)
     misfit.positions(search.values(search.start))
+    found, problem = _least(search, search.start, max_iterations)
+    if problem and search.logarithmic.sum() > 1:
+        again, still = _least(search, _common_multiple(search, max_iterations), max_iterations)
+        if not still or again.cost < found.cost:
+            found, problem = again, still
+    return _result(misfit, search, found, problem, sigma)
+
+
+def _least(search: _Search, start: Array, max_iterations: int) -> tuple[Any, str | None]:
+    """Where a search from `start` ends, and why that is no solution."""
+    optimize = require("scipy.optimize", "fit")
     found = optimize.least_squares(
-        search.residuals, search.start, search.jacobian, search.bounds, x_scale="jac", max_nfev=max_iterations,
+        search.residuals, start, search.jacobian, search.bounds, x_scale="jac", max_nfev=max_iterations,
         ftol=1e-12, xtol=1e-9, gtol=1e-12,
     )  # fmt: skip
-    return _result(misfit, search, found, sigma)
+    return found, _problem(search, found)
+
+
+def _common_multiple(search: _Search, max_iterations: int) -> Array:
+    """The start with all parameters that stay positive multiplied by the factor that fits best (P,): how stiff a body is
+    as a whole places tell first, and far from that its derivatives mislead."""
+    optimize = require("scipy.optimize", "fit")
+    shared = search.logarithmic.astype(float)
+    room = [np.min(np.abs(bound - search.start)[search.logarithmic]) for bound in search.bounds]
+    found = optimize.least_squares(
+        lambda t: search.residuals(search.start + t * shared), [0.0],
+        lambda t: (search.jacobian(search.start + t * shared) @ shared)[:, None], (-room[0], room[1]),
+        max_nfev=max_iterations, ftol=1e-4, xtol=1e-4,
+    )  # fmt: skip
+    return search.start + found.x * shared
 
 
 class _Search:
@@ -195,7 +227,11 @@ class _Search:
         self.lower, self.upper = lower, upper
         self.scale = np.where(initial != 0, np.abs(initial), np.where(np.isfinite(upper - lower), upper - lower, 1.0))
         self.start = self._coordinates(initial)
-        self.bounds = (self._coordinates(lower), self._coordinates(upper))
+        reach = np.where(self.logarithmic, _reach, np.inf)
+        self.bounds = (
+            np.maximum(self._coordinates(lower), self.start - reach),
+            np.minimum(self._coordinates(upper), self.start + reach),
+        )
 
     def _coordinates(self, values: Array) -> Array:
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -225,7 +261,7 @@ class _Search:
         return jacobian.reshape(-1, len(values)) * self.slopes(values)
 
 
-def _result(misfit: Misfit, search: _Search, found: Any, sigma: Array | None) -> FitResult:
+def _result(misfit: Misfit, search: _Search, found: Any, problem: str | None, sigma: Array | None) -> FitResult:
     special = require("scipy.special", "fit")
     values = search.values(found.x)
     slopes = search.slopes(values)
@@ -251,9 +287,29 @@ def _result(misfit: Misfit, search: _Search, found: Any, sigma: Array | None) ->
         scene=misfit.equilibrium.scene_at(values),
         method=misfit.method,
         solves=misfit.solves,
-        converged=bool(found.success),
-        message=str(found.message),
+        converged=problem is None,
+        message=problem or str(found.message),
     )
+
+
+def _problem(search: _Search, found: Any) -> str | None:
+    """Why the place where a search ended is no solution."""
+    far = search.logarithmic & (np.abs(found.x - search.start) > _far)
+    if far.any():
+        gone = ", ".join(path for path, is_far in zip(search.misfit.paths, far) if is_far)
+        return f"{gone} ran away from where it began: give bounds, or begin nearer to the solution"
+    if not found.success:
+        return str(found.message)
+    return None if _is_least(found) else _not_least
+
+
+def _is_least(found: Any) -> bool:
+    """Whether the linearised misfit falls no further, so that the search did not end for want of equilibria around."""
+    free = found.active_mask == 0
+    step = np.linalg.lstsq(found.jac[:, free], -found.fun, rcond=1e-10)[0]
+    left = found.fun + found.jac[:, free] @ step
+    before = float(found.fun @ found.fun)
+    return before - float(left @ left) <= _little * before or float(np.abs(step).max(initial=0)) <= _short
 
 
 def _covariance(jacobian: Array, paths: list[str], slopes: Array, variance: float) -> Array:

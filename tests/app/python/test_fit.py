@@ -5,12 +5,13 @@ import subprocess
 import sys
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import heml
-from heml._fit import Misfit
+from heml._fit import Misfit, _is_least
 
 pytest.importorskip("scipy")
 
@@ -137,6 +138,43 @@ def test_exact_points_that_do_not_depend_on_a_parameter():
         result = heml.fit(beam(), {"nodes": [0], "positions": [[0, 0, 0]]}, ["materials[0].young"])  # a node that is fixed
     assert ["do not determine" in str(warning.message) for warning in caught] == [True]
     assert result.standard_errors["materials[0].young"] == np.inf
+
+
+def soft_bar(K1, kappa):
+    material = {"law": "neo_hookean_iso", "K1": K1, "kappa": kappa, "density": 1000}
+    return beam(materials=[material], mesh={"box": {"size": [0.1, 0.02, 0.02], "cells": [4, 1, 1]}}, loads=[])
+
+
+@pytest.mark.parametrize("shear, bulk", [(600, 5e6), (300, 5e6), (200, 1e7), (6e4, 1e4), (6e4, 1e7)])
+def test_moduli_far_from_the_start(shear, bulk):
+    places = heml.solve(heml.Scene(soft_bar(6e3, 1e5)))[0]
+    observed = {"nodes": np.arange(len(places)), "positions": places}
+    result = heml.fit(soft_bar(shear, bulk), observed, ["materials[0].K1", "materials[0].kappa"])
+    assert result.converged and result.rms < 1e-9
+    assert np.allclose(list(result.values.values()), [6e3, 1e5], rtol=1e-4)
+
+
+def test_a_search_that_is_cut_short_is_not_converged():
+    places = heml.solve(heml.Scene(soft_bar(6e3, 1e5)))[0]
+    observed = {"nodes": np.arange(len(places)), "positions": places}
+    result = heml.fit(soft_bar(600, 5e6), observed, ["materials[0].K1", "materials[0].kappa"], max_iterations=2)
+    assert not result.converged
+    assert "maximum number" in result.message
+
+
+def test_least_misfit_is_told_from_a_stop():
+    jac = np.array([[1.0, 0.5], [0.0, 1.0], [1.0, 0.0]])
+    across = np.array([1.0, -0.5, -1.0])  # of its columns
+
+    def ended(fun, active=(0, 0)):
+        return SimpleNamespace(jac=jac, fun=fun, active_mask=np.array(active))
+
+    assert _is_least(ended(across))
+    assert not _is_least(ended(across + 0.1 * jac[:, 0]))
+    assert _is_least(ended(across + 1e-5 * jac[:, 0]))
+    assert not _is_least(ended(across + 0.1 * jac[:, 1], active=(1, 0)))
+    beside = np.array([0.0, 1.0, 0.0])  # falls along the first column alone, which is at its bound
+    assert _is_least(ended(beside - jac[:, 1] * (beside @ jac[:, 1]) / (jac[:, 1] @ jac[:, 1]), active=(1, 0)))
 
 
 def test_bounds_hold():

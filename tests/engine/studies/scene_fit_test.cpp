@@ -106,6 +106,24 @@ TEST_CASE("scene fit: moduli of a law are found from starts far off, to either s
   }
 }
 
+TEST_CASE("scene fit: a bar that would hang straight down is found as stiff as it is") {
+  const auto bar = [](double K1, double kappa) {
+    return parse_scene(fmt::format(R"({{
+      "schema_version": 1, "mesh": {{"box": {{"size": [0.1, 0.02, 0.02], "cells": [4, 1, 1]}}}},
+      "materials": [{{"law": "neo_hookean_iso", "K1": {}, "kappa": {}, "density": 1000}}],
+      "boundary": [{{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": true}}],
+      "gravity": [0, -9.81, 0], "solver": {{"threads": 1}}
+    }})",
+                                   K1, kappa),
+                       "bar.json");
+  };
+  const MeasuredPlaces measured = places_in(bar(6000, 1e5), 1e-5);
+  const SceneFit fit = fit_scene(bar(600, 5e6), measured, {{"materials[0].K1", {}}, {"materials[0].kappa", {}}});
+  CHECK(fit.converged);
+  CHECK(fit.numbers[0].value == doctest::Approx(6000).epsilon(0.01));
+  CHECK(fit.numbers[1].value == doctest::Approx(1e5).epsilon(0.05));
+}
+
 TEST_CASE("scene fit: what the places do not tell is said") {
   const Scene scene = block(5000, 0.3, 800);
   const MeasuredPlaces measured = places_in(scene, 1e-4);
