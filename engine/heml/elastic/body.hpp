@@ -333,8 +333,9 @@ class ElasticBody {
   }
   bool virtual_corner_forces(const Real* x, Real* f, bool add, ThreadTeam& team);
   bool quadratic_forces(const Real* x, Real* f, ThreadTeam& team);
+  /// Whether kernels of points write what commit() asks for: the next state, or what is beyond yield.
   bool points_remember() const;
-  void commit_points(const Real* x);
+  void evaluate_points(const Real* x);
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;

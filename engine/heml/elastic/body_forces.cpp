@@ -71,12 +71,14 @@ PointTerms<Real> ElasticBody<Real>::Part::terms_of_points() const {
   if (points.kappa_field) result.kappa_of = group->parameters[*points.kappa_field].data();
   if (memory) memory->put_in_points(result);
   if (active) result.active = active->stress();
+  if (flow) result.mises = flow->mises_stress();
   return result;
 }
 
 template <class Real>
 bool ElasticBody<Real>::points_remember() const {
-  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.in_points() && part.memory; });
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [](const Part& part) { return part.in_points() && (part.memory || part.flow); });
 }
 
 /// Of quadratic elements: point kernels, or loops over virtual corners where a material has none.

@@ -56,23 +56,21 @@ void ElasticBody<Real>::update_slots() const {
   slots_are_old_ = false;
 }
 
-/// The state that point kernels wrote in the last evaluation, at x or else in another one, becomes the present one.
+/// Unless the last evaluation was at x, so that point kernels have written what is asked for next.
 template <class Real>
-void ElasticBody<Real>::commit_points(const Real* x) {
+void ElasticBody<Real>::evaluate_points(const Real* x) {
   if (!points_remember()) return;
   if (!evaluated_ || std::memcmp(evaluated_x_.data(), x, sizeof(Real) * 3 * nodes()) != 0) {
     ThreadTeam alone(1);
     std::vector<Real> unused(3 * nodes());
     quadratic_forces(x, unused.data(), alone);
   }
-  for (Part& part : parts_)
-    if (part.in_points() && part.memory) part.memory->advance(*part.group);
   evaluated_ = false;
 }
 
 template <class Real>
 void ElasticBody<Real>::commit(const Real* x) {
-  commit_points(x);
+  evaluate_points(x);
   std::vector<Real> y;
   x = inner_positions(x, y);
   if (fans_.needs_state()) fans_.read_state(fan_slots());
@@ -80,19 +78,24 @@ void ElasticBody<Real>::commit(const Real* x) {
   const bool fans_know = flows_within_steps() && fans_.is_evaluated_at(x);
   fans_.commit(x);
   for (Part& part : parts_)
-    if (!part.in_fans && !part.in_points())
+    if (part.in_points() && part.memory)
+      part.memory->advance(*part.group);
+    else if (!part.in_fans && !part.in_points())
       for (const auto& term : part.terms) term->commit(*part.group, x);
   flow(x, fans_know);
 }
 
-/// Elements flow that are beyond yield at x. fans_know: their forces were evaluated there last, which tells.
+/// Elements flow that are beyond yield at x, where point kernels were evaluated last. fans_know: their forces were
+/// evaluated there last, which tells.
 template <class Real>
 void ElasticBody<Real>::flow(const Real* x, bool fans_know) {
   std::size_t in_fans = 0;
   for (Part& part : parts_) {
     const std::size_t fans = part.in_fans ? in_fans++ : 0;
     if (!part.flow) continue;
-    if (!part.in_fans || !fans_know) {
+    if (part.in_points()) {
+      plastic_work_ += part.flow->flow_at_stress(part.group.write(), x);
+    } else if (!part.in_fans || !fans_know) {
       plastic_work_ += part.flow->flow(part.group.write(), x);
     } else if (const std::vector<std::size_t> slots = fans_.beyond_yield(fans); !slots.empty()) {
       plastic_work_ += part.flow->flow(part.group.write(), x, slots);
@@ -116,6 +119,7 @@ bool ElasticBody<Real>::flows_within_steps() const {
 template <class Real>
 void ElasticBody<Real>::begin_flow_trial(const Real* x, ThreadTeam& team) {
   if (!flows_within_steps()) return;
+  evaluated_ = false;
   x = inner_positions(x, team);
   for (Part& part : parts_) {
     if (!part.flows_within_steps) continue;
@@ -141,7 +145,9 @@ template <class Real>
 void ElasticBody<Real>::end_flow_trial() {
   for (Part& part : parts_)
     if (part.flows_within_steps) part.flow->end_trial(part.group.write());
-  if (flows_within_steps()) put_trial_in_fans();
+  if (!flows_within_steps()) return;
+  evaluated_ = false;
+  put_trial_in_fans();
 }
 
 template <class Real>

@@ -1,27 +1,11 @@
 #pragma once
 // Tensions in a fan of an element whose rest shape has flowed (elastic/fan_flow.hpp), and its von Mises stress. Flow
 // couples the axis of a fan with its ring, so A* has all six entries: aa 00 11 a0 a1 01.
+#include <heml/elastic/deviator_square.hpp>
 #include <heml/elastic/fan_parts.hpp>
 #include <heml/elastic/tension.hpp>
-#include <limits>
 
 namespace heml::fan {
-
-/// A G of symmetric matrices.
-template <class P>
-[[gnu::always_inline]] inline void product3(const P A[6], const P G[6], P W[3][3]) {
-  constexpr int entry[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      W[i][j] = A[entry[i][0]] * G[entry[0][j]] + A[entry[i][1]] * G[entry[1][j]] + A[entry[i][2]] * G[entry[2][j]];
-}
-
-/// tr W².
-template <class P>
-[[gnu::always_inline]] inline P trace_of_square(const P W[3][3]) {
-  return W[0][0] * W[0][0] + W[1][1] * W[1][1] + W[2][2] * W[2][2] +
-         P(2) * (W[0][1] * W[1][0] + W[0][2] * W[2][0] + W[1][2] * W[2][1]);
-}
 
 template <class P>
 [[gnu::always_inline]] inline void entries_of(const FanGram<P>& G, P out[6]) {
@@ -77,22 +61,13 @@ template <class P, InvariantLaw<P> L>
   return {T[0], T[1], T[2], T[3], T[4], T[5], s.wJ * P(-1.0 / 6)};
 }
 
-/// 1/54 of the square of the von Mises Kirchhoff stress, Pa², and what rounding may take away: τ' has the invariants of
-/// TG/V less a third of its trace.
+/// 1/54 of the square of the von Mises Kirchhoff stress, Pa², and what rounding may take away.
 template <class P>
 [[gnu::always_inline]] inline P mises_measure(const FanTensions<P>& t, const FanGram<P>& gram, P k) {
-  constexpr auto epsilon = std::numeric_limits<Lane<P>>::epsilon();
-  constexpr Lane<P> more = Lane<P>(1e-3),
-                    rounding = 64 * epsilon * epsilon / more;  // (a + b)² ≤ (1 + m) a² + (1 + 1/m) b²
-  P G[6], W[3][3], size = 0;
+  P G[6];
   entries_of(gram, G);
   const P T[6] = {k * t.aa, k * t.b00, k * t.b11, k * t.a0, k * t.a1, k * t.b01};
-  product3(T, G, W);
-  for (const auto& row : W)
-    for (const P& entry : row) size += entry * entry;
-  const P mean = (W[0][0] + W[1][1] + W[2][2]) * P(1.0 / 3);
-  for (int i = 0; i < 3; ++i) W[i][i] -= mean;
-  return trace_of_square(W) * P(1 + more) + size * P(rounding);
+  return deviator_square(T, G);
 }
 
 }  // namespace heml::fan

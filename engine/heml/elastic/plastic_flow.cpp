@@ -61,7 +61,8 @@ PlasticFlow<Real>::PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plast
       yield_(static_cast<Real>(plasticity.yield)),
       hardening_(static_cast<Real>(plasticity.hardening)),
       rest_A_(group.A),
-      strain_(group.volume.size(), 0) {}
+      strain_(group.volume.size(), 0),
+      stress_bounds_(group.volume.size(), 0) {}
 
 /// Returns the plastic work, J; padding does none.
 template <class Real>
@@ -76,10 +77,22 @@ double PlasticFlow<Real>::add_flow(Group& group, std::size_t s, const Yielding& 
 
 template <class Real>
 double PlasticFlow<Real>::flow(Group& group, const Real* x) {
+  law_->mises_bounds(group, x, 0, group.packets(), stress_bounds_.data());
+  return flow_beyond_bounds(group, x);
+}
+
+template <class Real>
+double PlasticFlow<Real>::flow_at_stress(Group& group, const Real* x) {
+  for (std::size_t s = group.size(); s < group.volume.size(); ++s)  // padding repeats the last slot
+    stress_bounds_[s] = stress_bounds_[group.size() - 1];
+  return flow_beyond_bounds(group, x);
+}
+
+template <class Real>
+double PlasticFlow<Real>::flow_beyond_bounds(Group& group, const Real* x) {
   double work = 0;
   forget_trial();
   flowed_.clear();
-  stress_bounds_.resize(group.volume.size());
   each_yielding(group, x, 0, group.packets(),
                 [&](std::size_t s, const Yielding& yielding) { work += add_flow(group, s, yielding); });
   return work;
@@ -115,12 +128,12 @@ bool PlasticFlow<Real>::begin_trial(Group& group, std::span<const Real> x) {
   trial_x_.assign(x.begin(), x.end());
   other_A_ = group.A;
   trial_strain_.assign(group.volume.size(), Real(0));
-  stress_bounds_.resize(group.volume.size());
   return false;
 }
 
 template <class Real>
 void PlasticFlow<Real>::try_flow(Group& group, const Real* x, std::size_t begin, std::size_t end) {
+  law_->mises_bounds(group, x, begin, end, stress_bounds_.data() + begin * Group::lanes);
   each_yielding(group, x, begin, end, [&](std::size_t s, const Yielding& yielding) {
     trial_strain_[s] = yielding.flow.equivalent_strain();
     Real A[6];
@@ -204,6 +217,7 @@ void PlasticFlow<Real>::gather_slots(std::span<const std::size_t> from) {
   forget_trial();
   for (auto& list : rest_A_) heml::gather_slots(list, from);
   heml::gather_slots(strain_, from);
+  stress_bounds_.resize(strain_.size());
 }
 
 template <class Real>
@@ -221,11 +235,11 @@ void PlasticFlow<Real>::transfer_state(const PlasticFlow& other, const Group& of
   }
 }
 
+/// Slots that flow, of those whose bound of the stress says that they may.
 template <class Real>
 template <class Visit>
 void PlasticFlow<Real>::each_yielding(const Group& group, const Real* x, std::size_t begin, std::size_t end,
                                       const Visit& visit) {
-  law_->mises_bounds(group, x, begin, end, stress_bounds_.data() + begin * Group::lanes);
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
     if (stress_bounds_[s] < least_stress_of_flow(s)) continue;
     Yielding yielding;

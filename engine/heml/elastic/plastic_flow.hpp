@@ -29,6 +29,9 @@ class PlasticFlow {
 
   /// Return mapping at positions x (3 #V, m): updates A of elements beyond yield. Returns the plastic work, J.
   double flow(Group& group, const Real* x);
+  /// The same where kernels of points have written the von Mises stress of all slots at x, Pa, to mises_stress().
+  double flow_at_stress(Group& group, const Real* x);
+  Real* mises_stress() { return stress_bounds_.data(); }
   /// The same of slots that may be, ascending, where all others are not.
   double flow(Group& group, const Real* x, std::span<const std::size_t> slots);
   /// The slots whose A the last flow() changed, ascending.
@@ -84,6 +87,7 @@ class PlasticFlow {
   bool find_flow(const Group& group, const Real* x, std::size_t s, const RestShape<Real>& rest,
                  Yielding& yielding) const;
   double add_flow(Group& group, std::size_t s, const Yielding& yielding);
+  double flow_beyond_bounds(Group& group, const Real* x);
   template <class Visit>
   void each_yielding(const Group& group, const Real* x, std::size_t begin, std::size_t end, const Visit& visit);
 
@@ -91,7 +95,7 @@ class PlasticFlow {
   Real yield_, hardening_;
   std::array<std::vector<Real>, 6> rest_A_;
   std::vector<Real> strain_;
-  std::vector<Real> stress_bounds_;  ///< scratch
+  std::vector<Real> stress_bounds_;  ///< scratch, padded #S
   std::vector<std::size_t> flowed_;
   // Of the last trial: where it was, the equivalent strain that flows, 0 where none does, and A there; while it lasts
   // the group has these A, and other_A_ those of the state.

@@ -35,6 +35,7 @@ PointTerms<Real> of_block(PointTerms<Real> terms, const PointLayout::Block& bloc
   const std::size_t slot = element_points * block.first;
   if (terms.before) terms.before += terms.state * slot, terms.next += terms.state * slot;
   if (terms.kappa_of) terms.kappa_of += slot;
+  if (terms.mises) terms.mises += slot;
   return terms;
 }
 

@@ -8,6 +8,7 @@
 //        next state, kept by ◄────┘  └──── state of the step's beginning
 //        ViscoelasticTerm::advance()
 #include <heml/elastic/added_volume.hpp>
+#include <heml/elastic/deviator_square.hpp>
 #include <heml/elastic/fours_of_lanes.hpp>
 #include <heml/elastic/point_kernels.hpp>
 #include <heml/elastic/remembered_tensions.hpp>
@@ -202,7 +203,23 @@ struct PointStages {
     }
   }
 
+  static void put_mises(const Elements& of, Real* mises) {
+    P stress[4];
+    for (std::size_t q = 0; q < 4; ++q) {
+      const Point& point = of.point[q];
+      const P per_volume = P(1) / point.rest.volume;
+      P T[6];
+      for (std::size_t i = 0; i < 6; ++i) T[i] = per_volume * point.t.T[i];
+      stress[q] = sqrt(P(1.5) * deviator_square(T, point.of.G));
+    }
+    alignas(64) Real of_lane[4][lanes];
+    Fours::write(stress, of_lane);
+    for (std::size_t lane = 0; lane < of.count; ++lane)
+      write_four(read_four(of_lane[lane % 4] + lane / 4 * 4), mises + of.slot[lane]);
+  }
+
   static void add_terms(const Terms& terms, Elements& of, Mask<P>& valid) {
+    if (terms.mises) put_mises(of, terms.mises);
     if (terms.branch_count > 0) add_relaxation(terms, of);
     if (terms.is_viscous()) add_viscosity(terms, of);
     if (terms.has_volume) add_volume(terms, of, valid);

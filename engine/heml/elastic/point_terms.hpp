@@ -28,8 +28,11 @@ struct PointTerms {
   Real active = 0;                                 ///< Pa, along the fibres of the block
   VolumeTerm mean_volume = VolumeTerm::quadratic;  ///< of mean dilatation (PointBlock::kappa)
 
+  Real* mises = nullptr;  ///< Pa, of every slot, overwritten: the von Mises stress of the law, which rounding does not
+                          ///< make too small (plastic_flow.hpp); null: nothing flows
+
   bool is_viscous() const { return eta != 0 || zeta != 0; }
-  bool any() const { return state > 0 || has_volume || active != 0; }
+  bool any() const { return state > 0 || has_volume || active != 0 || mises; }
 };
 
 }  // namespace heml

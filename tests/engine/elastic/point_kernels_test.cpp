@@ -210,13 +210,17 @@ void check_steps(const Sample& sample, const Material& material, bool pressure, 
     if (step == 2) points->forces(converted<Real>(sample.body.x).data(), again.data(), team);  // not where it commits
     for (const auto& body : {loops.get(), points.get()}) body->commit(x.data());
   }
+  CHECK(points->plastic_work() == doctest::Approx(loops->plastic_work()).epsilon(tolerance));
+  CHECK((points->plastic_work() > 0) == material.plasticity.has_value());
   const InternalState<Real> by_loops = loops->internal_state(), by_points = points->internal_state();
   REQUIRE(by_loops.values.size() == by_points.values.size());
   for (std::size_t k = 0; k < by_loops.values.size(); ++k) {
     Real size = 0;
     for (const Real value : by_loops.values[k]) size = std::max(size, std::abs(value));
     REQUIRE(by_loops.values[k].size() == by_points.values[k].size());
-    const std::size_t each = 12 + 6 * material.relaxation.size(), first = material.viscosity > 0 ? 0 : 6;
+    const bool is_of_flow = material.plasticity && k < 7;  // plastic strain and A
+    const std::size_t each = 12 + 6 * material.relaxation.size();
+    const std::size_t first = is_of_flow || material.viscosity > 0 ? 0 : 6;
     for (std::size_t i = 0; i < by_loops.values[k].size(); ++i)
       if (i % each >= first)  // without viscosity Gram matrices are not used
         CHECK(std::abs(by_loops.values[k][i] - by_points.values[k][i]) <= tolerance * size);
@@ -242,6 +246,26 @@ TEST_CASE("point kernels: terms beside the law are those of the loops, over step
   for (const InstructionSet isa : instruction_sets())
     if (isa != InstructionSet::portable)
       check_steps<double>(sample, with_terms(sample_material("neo_hookean_iso")).back(), false, isa, 1e-11);
+}
+
+TEST_CASE("point kernels: what flows is what the loops find, beside viscosity and relaxation too") {
+  std::mt19937_64 random(71);
+  Sample sample(random);
+  for (const auto law : {"neo_hookean_iso", "mooney_rivlin", "ogden", "yeoh"}) {
+    CAPTURE(std::string(law));
+    Material plastic = sample_material(law);
+    plastic.plasticity = Plasticity{30, 10};
+    for (const bool varies : {false, true}) {
+      if (varies) test::vary_parameters(plastic, sample.body.mesh, random);
+      Material viscous = plastic, relaxing = plastic;
+      viscous.viscosity = 2, relaxing.relaxation = {{0.4, 0.02}};
+      for (const Material& material : {plastic, viscous, relaxing})
+        for (const bool pressure : {false, true}) {
+          check_steps<double>(sample, material, pressure, instruction_sets().back(), 1e-9);
+          check_steps<float>(sample, material, pressure, instruction_sets().back(), 5e-3);
+        }
+    }
+  }
 }
 
 TEST_CASE("point kernels: laws by expression, alone and with viscosity") {
