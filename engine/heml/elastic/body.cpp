@@ -63,7 +63,7 @@ void ElasticBody<Real>::make_parts() {
   join_parts();
 }
 
-/// The fan kernels run a law unless it is an expression of stretches, or its elements both flow and remember stress.
+/// The fan kernels run a law unless it is an expression of stretches.
 /// Integration points have no neighbours to share a fan with.
 template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
@@ -96,8 +96,7 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
       part.flow && material.viscosity == 0 && material.bulk_viscosity == 0 && material.relaxation.empty();
   if (layout_->virtual_corners)
     part.points = point_forces<Real>(of_points, options_.continuation, options_.instruction_set);
-  part.in_fans = !part.terms.empty() && (!part.flow || part.flows_within_steps) && !layout_->virtual_corners &&
-                 has_kernel(material);
+  part.in_fans = !part.terms.empty() && !layout_->virtual_corners && has_kernel(material);
   for (const auto& term : part.terms)
     if (auto* memory = dynamic_cast<ViscoelasticTerm<Real>*>(term.get())) part.memory = memory;
   if (part.in_fans && part.memory) part.memory->leave_state_to_fans();

@@ -75,7 +75,8 @@ void ElasticBody<Real>::commit(const Real* x) {
   x = inner_positions(x, y);
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   if (fans_.has_state()) slots_are_old_ = true;
-  const bool fans_know = flows_within_steps() && fans_.is_evaluated_at(x);
+  const bool flows = std::any_of(parts_.begin(), parts_.end(), [](const Part& p) { return p.flow != nullptr; });
+  const bool fans_know = flows && fans_.is_evaluated_at(x);
   fans_.commit(x);
   for (Part& part : parts_)
     if (part.in_points() && part.memory)

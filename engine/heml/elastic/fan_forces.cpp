@@ -91,7 +91,6 @@ void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law
   }
   law.takes_pressure = part.nodal_pressure;
   if (part.nodal_pressure) terms.has_volume = false;
-  assert(!terms.flows || terms.state == 0);
   law.has_terms = terms.state > 0 || terms.has_volume || law.takes_pressure || !law.parameters.empty() || terms.flows ||
                   (law.shape != FanShape::fibre && terms.fibre_constant > 0);
   terms.is_principal = law.shape == FanShape::principal;
@@ -212,11 +211,11 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
       const std::size_t part = fans.blocks[b].part;
       const Law& law = laws_[part];
       const FanBlock<Real> block = block_at(b, 3);
-      const bool remembers = law.terms.state > 0, flows = law.terms.flows;
-      const Real* state = flows ? flow_.shape(b) : remembers ? state_.now(b) : nullptr;
-      Real* next = flows ? flow_.beyond_of(b) : remembers ? state_.next(b) : nullptr;
+      FanMemory<Real> memory;
+      if (law.terms.state > 0) memory.state = state_.now(b), memory.next = state_.next(b);
+      if (law.terms.flows) memory.shape = flow_.shape(b), memory.beyond = flow_.beyond_of(b);
       const bool defined = law.has_terms || law.terms.active != 0
-                               ? law.term_kernel(law.law.get(), block, terms[part], state, next, x, f)
+                               ? law.term_kernel(law.law.get(), block, terms[part], memory, x, f)
                                : law.kernel(law.law.get(), block, x, f);
       if (!defined) valid.store(false, std::memory_order_relaxed);
     }
@@ -275,7 +274,8 @@ void FanForces<Real>::write_state(const std::vector<FanSlots<Real>>& slots) cons
 
 template <class Real>
 Real FanForces<Real>::state_bound(const std::vector<FanSlots<Real>>& slots) const {
-  return has_state() ? state_.bound(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots) : Real(0);
+  assert(!needs_state());
+  return has_state() ? state_.bound(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots, flow_) : Real(0);
 }
 
 template <class Real>

@@ -122,7 +122,7 @@ class FanForces {
   FanFlow<Real> flow_;
   std::size_t nodes_ = 0;          ///< of the mesh
   Real step_ = 0;                  ///< s, of the last begin_step()
-  std::vector<Real> evaluated_x_;  ///< where forces() wrote the next state, or what is beyond yield
+  std::vector<Real> evaluated_x_;  ///< where forces() wrote the next state and what is beyond yield
   bool evaluated_ = false;         ///< whether it did, in this step
 };
 

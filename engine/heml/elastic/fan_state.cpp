@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <heml/elastic/deviator_square.hpp>
+#include <heml/elastic/fan_flow.hpp>
 #include <heml/elastic/fan_state.hpp>
 #include <heml/elastic/group_loops.hpp>
 #include <heml/math/bytes.hpp>
@@ -10,13 +12,31 @@ namespace {
 
 constexpr std::size_t max_lanes = 16;
 
-/// tr (A*⁻¹TA*⁻¹T) of the tensions T that are fixed during the step; numbers of a lane are `lanes` apart.
+/// The tensions that are fixed during the step; numbers of a lane are `lanes` apart.
 template <class Real>
-Real square_of_fixed(const FanTerms<Real>& terms, const Real* shape, const Real* state, std::size_t lanes) {
-  Real T[6] = {};
+void put_fixed(const FanTerms<Real>& terms, const Real* state, std::size_t lanes, Real T[6]) {
+  std::fill_n(T, 6, Real(0));
   for (std::size_t k = 0; k < terms.branch_count; ++k)
     for (std::size_t c = 0; c < 6; ++c)
       T[c] += terms.branches[k].decay * state[(6 * (k + 1) + c) * lanes] - terms.branches[k].gain * state[c * lanes];
+}
+
+/// tr (A*⁻¹TA*⁻¹T) of the fixed tensions T. A: of FanFlow::shape().
+template <class Real>
+Real square_of_flowed(const FanTerms<Real>& terms, const Real* A, const Real* state, std::size_t lanes) {
+  Real T[6], of_lane[6], inverse[6], W[3][3];
+  put_fixed(terms, state, lanes, T);
+  for (std::size_t c = 0; c < 6; ++c) of_lane[c] = A[c * lanes];
+  inverse3(of_lane, inverse);
+  product3(inverse, T, W);
+  return trace_of_square(W);
+}
+
+/// The same of a rest shape that has not flowed.
+template <class Real>
+Real square_of_fixed(const FanTerms<Real>& terms, const Real* shape, const Real* state, std::size_t lanes) {
+  Real T[6];
+  put_fixed(terms, state, lanes, T);
   Real p = shape[0], q00 = shape[lanes], q11 = shape[2 * lanes], q01 = shape[3 * lanes];
   if (terms.is_principal) {  // of the Cholesky factor
     q11 = q01 * q01 + q11 * q11, q01 *= q00, q00 *= q00, p *= p;
@@ -88,7 +108,7 @@ void FanState<Real>::write(const FanLayout<Real>& layout, std::size_t lanes, con
 /// |S|² = tr (A⁻¹TA⁻¹T) / V² = 36 tr (A*⁻¹TA*⁻¹T).
 template <class Real>
 Real FanState<Real>::bound(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
-                           const std::vector<FanSlots<Real>>& slots) const {
+                           const std::vector<FanSlots<Real>>& slots, const FanFlow<Real>& flow) const {
   Real largest = 0;
   for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
     const auto& block = layout.blocks[b];
@@ -97,13 +117,17 @@ Real FanState<Real>::bound(const FanLayout<Real>& layout, std::size_t lanes, con
     const ElementGroup<Real>& group = *slots[block.part].group;
     const Real* shape = &layout.shape[block.shape];
     const Real* state = now(b) + of_part.viscous_state * lanes;
+    const Real* flowed = of_part.flows ? flow.shape(b) : nullptr;
     const FanPlace* place = &places_.list[places_.first(b)];
     for (std::size_t g = 0; g < block.groups; ++g) {
       const FanSize size = layout.size[block.group + g];
       shape += size.ring * lanes;
       for (std::size_t i = 0; i < size.tets; ++i) {
         Real square[max_lanes];
-        for (std::size_t l = 0; l < lanes; ++l) square[l] = square_of_fixed(of_part, shape + l, state + l, lanes);
+        for (std::size_t l = 0; l < lanes; ++l)
+          square[l] = flowed ? square_of_flowed(of_part, flowed + l, state + l, lanes)
+                             : square_of_fixed(of_part, shape + l, state + l, lanes);
+        if (flowed) flowed += fan_flow_numbers * lanes;
         for (std::size_t l = 0; l < lanes; ++l) {
           if (place[l].slot < 0) continue;
           const auto rest = rest_shape(group, static_cast<std::size_t>(place[l].slot));

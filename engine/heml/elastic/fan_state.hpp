@@ -7,6 +7,8 @@
 namespace heml {
 
 template <class Real>
+class FanFlow;
+template <class Real>
 class PlasticFlow;
 
 /// The state of one part by slot: `each` numbers a slot, G0 T0 Q of branch 0 …, padding included.
@@ -39,9 +41,9 @@ class FanState {
              const std::vector<FanSlots<Real>>& slots) const;
 
   /// Largest 4/ρ |S| γ, 1/s² (step_bound.hpp), with S the stress that is fixed during the step
-  /// (ViscoelasticTerm::state_bound()).
+  /// (ViscoelasticTerm::state_bound()). flow: of the parts that flow.
   Real bound(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
-             const std::vector<FanSlots<Real>>& slots) const;
+             const std::vector<FanSlots<Real>>& slots, const FanFlow<Real>& flow) const;
 
   const Real* now(std::size_t block) const { return now_.data() + start_[block]; }
   Real* next(std::size_t block) { return next_.data() + start_[block]; }

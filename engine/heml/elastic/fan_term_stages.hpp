@@ -6,6 +6,7 @@
 #include <heml/elastic/fan_flow_tensions.hpp>
 #include <heml/elastic/fan_force_kernel.hpp>
 #include <heml/elastic/fan_term_kernels.hpp>
+#include <heml/elastic/remembered_tensions.hpp>
 
 namespace heml::fan {
 
@@ -202,10 +203,38 @@ struct TermStages {
     }
   }
 
-  static void add_terms(const FanTerms<Real>& terms, const Group& group, Work& work, const Real* state, Real* next,
+  /// add_viscosity() of rest shapes that have flowed.
+  static void add_flowed_viscosity(const FanTerms<Real>& terms, const Group& group, Work& work,
+                                   const FanMemory<Real>& memory) {
+    const Real *state = memory.state, *shape = memory.shape;
+    Real* next = memory.next;
+    for (std::size_t i = 1; i <= group.m; ++i, state += terms.state * lanes, next += terms.state * lanes) {
+      const P k = pack_at<P>(group.rest + ((i - 1) * terms.constants + 4) * lanes);
+      P G[6], dG[6], T[6];
+      entries_of(gram(group, work, i), G);
+      RestShape<P> rest;
+      rest.volume = P(1.0 / 6) / k;
+      for (std::size_t c = 0; c < 6; ++c) {
+        rest.A[c] = k * pack_at<P>(shape + c * lanes);
+        dG[c] = G[c] - pack_at<P>(state + c * lanes);
+        T[c] = P(0);
+        put(next + c * lanes, G[c]);
+      }
+      shape += fan_flow_numbers * lanes;
+      add_viscous_tensions<P>(dG, rest, terms.eta, terms.zeta, terms.per_step, T);
+      FanTensions<P>& t = work.tensions[i];
+      P* entries[6] = {&t.aa, &t.b00, &t.b11, &t.a0, &t.a1, &t.b01};
+      for (std::size_t c = 0; c < 6; ++c) *entries[c] -= T[c];
+    }
+  }
+
+  static void add_terms(const FanTerms<Real>& terms, const Group& group, Work& work, const FanMemory<Real>& memory,
                         const Real* records, const std::uint16_t* index, Mask<P>& valid) {
-    if (terms.branch_count > 0) add_relaxation(terms, group, work, state, next);
-    if (terms.viscous_state > 0) add_viscosity(terms, group, work, state, next);
+    if (terms.branch_count > 0) add_relaxation(terms, group, work, memory.state, memory.next);
+    if (terms.viscous_state > 0 && terms.flows)
+      add_flowed_viscosity(terms, group, work, memory);
+    else if (terms.viscous_state > 0)
+      add_viscosity(terms, group, work, memory.state, memory.next);
     if (terms.pressure)
       add_pressure(group, work, records, index);
     else if (terms.has_volume)
@@ -214,15 +243,13 @@ struct TermStages {
   }
 
   [[gnu::noinline]] static bool block(LawTensions tensions, void* law, const FanBlock<Real>& block,
-                                      const FanTerms<Real>& terms, const Real* state, Real* next, const Real* x,
-                                      Real* f) {
+                                      const FanTerms<Real>& terms, FanMemory<Real> memory, const Real* x, Real* f) {
     alignas(64) Real records[8 * max_block_nodes];
     read_records<Isa>(block, x, records);
     if (terms.pressure)
       for (std::size_t n = 0; n < block.nodes; ++n) records[8 * n + 3] = terms.pressure[block.place[n] / 3];
     const std::uint16_t* index = block.index;
     const Real* shape = block.shape;
-    const std::size_t reads = terms.flows ? fan_flow_numbers : terms.state, writes = terms.flows ? 1 : terms.state;
     Mask<P> valid = true;
     Work work;
     for (Spoke<P>& spoke : work.spoke) spoke = {};
@@ -230,15 +257,16 @@ struct TermStages {
       const FanSize size = block.size[g];
       Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
       Stages::read_group(group, index, records, work);
-      tensions(law, terms, group, state, next, work, valid);
-      add_terms(terms, group, work, state, next, records, index, valid);
+      tensions(law, terms, group, memory.shape, memory.beyond, work, valid);
+      add_terms(terms, group, work, memory, records, index, valid);
       P axis = 0;
       for (std::size_t i = 1; i <= group.m; ++i) axis += work.tensions[i].aa;
       Stages::close_ring(group, work);
       Stages::add_forces(group, index, axis, work, records);
       index += (2 + size.ring) * lanes;
       shape += (size.ring + size.tets * terms.constants) * lanes;
-      state += size.tets * reads * lanes, next += size.tets * writes * lanes;
+      memory.state += size.tets * terms.state * lanes, memory.next += size.tets * terms.state * lanes;
+      if (terms.flows) memory.shape += size.tets * fan_flow_numbers * lanes, memory.beyond += size.tets * lanes;
     }
     write_forces<Isa>(block, records + 4, f);
     return valid.all();
@@ -282,28 +310,28 @@ FanTermKernel<Real> term_kernel(std::size_t law, bool continued) {
   visit_law(law, continued, [&]<class Tag, bool with>(Tag, std::bool_constant<with>) {
     using One = typename Tag::template Law<Real, with>;
     using Many = typename Tag::template Law<P, with>;
-    kernel = [](const void* scalar, const FanBlock<Real>& block, const FanTerms<Real>& terms, const Real* state,
-                Real* next, const Real* x, Real* f) {
+    kernel = [](const void* scalar, const FanBlock<Real>& block, const FanTerms<Real>& terms, FanMemory<Real> memory,
+                const Real* x, Real* f) {
       Many many = broadcast<Many, P>(*static_cast<const One*>(scalar));
       typename Stages::LawTensions tensions = &Stages::template law_tensions<Many>;
       if constexpr (Many::has_volume_term && !Many::uses_I4)
         if (terms.flows) tensions = &Stages::template flowed_law_tensions<Many>;
-      return Stages::block(tensions, &many, block, terms, state, next, x, f);
+      return Stages::block(tensions, &many, block, terms, memory, x, f);
     };
   });
   return kernel;
 }
 
 template <class Real, class Isa, bool with_fibre>
-bool energy_term_block(const void* law, const FanBlock<Real>& block, const FanTerms<Real>& terms, const Real* state,
-                       Real* next, const Real* x, Real* f) {
+bool energy_term_block(const void* law, const FanBlock<Real>& block, const FanTerms<Real>& terms,
+                       FanMemory<Real> memory, const Real* x, Real* f) {
   using Stages = TermStages<Real, Isa>;
   using P = typename Stages::P;
   Mask<P> defined = true;
   const auto* numbers = static_cast<const InvariantEnergy<Real, false, with_fibre>*>(law);
   NotingEnergy<P, with_fibre> noting{numbers->template broadcast<P>(), &defined};
-  const bool valid = Stages::block(&Stages::template law_tensions<NotingEnergy<P, with_fibre>>, &noting, block, terms,
-                                   state, next, x, f);
+  const bool valid =
+      Stages::block(&Stages::template law_tensions<NotingEnergy<P, with_fibre>>, &noting, block, terms, memory, x, f);
   return valid && defined.all();
 }
 

@@ -12,8 +12,7 @@
 // The six numbers are of the edges a, b0, b1 of elastic/fan_block.hpp, as aa 00 11 a0 a1 01; tensions have the reversed
 // sign of the kernels.
 //
-// Rest shapes that plastic flow changes (elastic/fan_flow.hpp) take the place of the state, and what is beyond yield
-// that of the next state: such materials have no other memory.
+// Rest shapes that plastic flow changes, and what is beyond yield, lie beside the state (elastic/fan_flow.hpp).
 //
 // Parameters that differ between elements are read before the tensions of each tetrahedron, from behind the constants
 // of its rest shape (elastic/fan_block.hpp). Only kernels with terms do that.
@@ -30,7 +29,7 @@ constexpr std::size_t fan_flow_numbers = 7;
 /// The volume modulus κ, if it differs between elements, is not one of the law's where a volume term takes it.
 template <class Real>
 struct FanTerms {
-  bool flows = false;         ///< rest shapes are those of elastic/fan_flow.hpp; then state is 0
+  bool flows = false;         ///< rest shapes are those of elastic/fan_flow.hpp
   bool is_principal = false;  ///< the constants of the rest shape are those of a law of principal stretches
   std::size_t constants = 0;  ///< a tetrahedron, with the parameters that differ
   const std::size_t* parameters = nullptr;  ///< which of the law's each of those is; not_of_the_law: none
@@ -53,11 +52,19 @@ struct FanTerms {
   std::size_t fibre_constant = 0;  ///< which constant its fibre begins at; 0: none
 };
 
-/// As FanKernel, for the law and these terms. `state`: of the block; `next`: state after the step, overwritten; of
-/// elements that flow, FanFlow::shape() and beyond_of(). The law has no volume term where `terms` has one or a pressure.
+/// What the elements of a block remember, as their kernel reads and writes it; null: nothing.
+template <class Real>
+struct FanMemory {
+  const Real* state = nullptr;  ///< at the beginning of the step
+  Real* next = nullptr;         ///< after it, overwritten
+  const Real* shape = nullptr;  ///< FanFlow::shape(), of elements that flow
+  Real* beyond = nullptr;       ///< FanFlow::beyond_of(), overwritten
+};
+
+/// As FanKernel, for the law and these terms. The law has no volume term where `terms` has one or a pressure.
 template <class Real>
 using FanTermKernel = bool (*)(const void* law, const FanBlock<Real>& block, const FanTerms<Real>& terms,
-                               const Real* state, Real* next, const Real* x, Real* f);
+                               FanMemory<Real> memory, const Real* x, Real* f);
 
 /// Writes the sums of V J (m³) of the tetrahedra at each node: those of own nodes to sum (#V), those of shared nodes to
 /// block.shared_force, one a node.

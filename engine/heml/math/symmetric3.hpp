@@ -48,6 +48,15 @@ template <class Real>
   return e;
 }
 
+/// S⁻¹ of a symmetric matrix that is not singular.
+template <class Real>
+[[gnu::always_inline]] inline void inverse3(const Real S[6], Real out[6]) {
+  const Real c[6] = {S[1] * S[2] - S[5] * S[5], S[0] * S[2] - S[4] * S[4], S[0] * S[1] - S[3] * S[3],
+                     S[4] * S[5] - S[3] * S[2], S[3] * S[5] - S[1] * S[4], S[3] * S[4] - S[0] * S[5]};
+  const Real scale = 1 / (S[0] * c[0] + S[3] * c[3] + S[4] * c[4]);
+  for (int i = 0; i < 6; ++i) out[i] = scale * c[i];
+}
+
 /// Σ_i f_i n_i n_iᵀ.
 template <class Real>
 [[gnu::always_inline]] inline void spectral_sum3(const SymmetricEigen3<Real>& e, const Real f[3], Real out[6]) {

@@ -334,7 +334,7 @@ TEST_CASE("a body names the kernels of a law alone and with further terms") {
   CHECK(forces(plain, true, "fans") != run(fans, x, 1));
   forces(plastic, false, "fans");
   plastic.viscosity = 3;
-  forces(plastic, false, "corners");
+  forces(plastic, false, "fans");
 
   // A law without its volume term equals the law with κ = 0.
   Material isochoric = plain;

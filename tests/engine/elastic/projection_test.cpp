@@ -51,4 +51,18 @@ TEST_CASE("projections leave what is positive and make positive what is not, in 
   }
 }
 
+TEST_CASE("the inverse of a symmetric matrix") {
+  std::mt19937_64 random(31);
+  for (int k = 0; k < 20; ++k) {
+    double S[6], inverse[6];
+    for (double& value : S) value = test::uniform(random, -1, 1);
+    S[0] += 3, S[1] += 3, S[2] += 3;
+    inverse3(S, inverse);
+    Eigen::Matrix3d A, B;
+    A << S[0], S[3], S[4], S[3], S[1], S[5], S[4], S[5], S[2];
+    B << inverse[0], inverse[3], inverse[4], inverse[3], inverse[1], inverse[5], inverse[4], inverse[5], inverse[2];
+    CHECK((A * B - Eigen::Matrix3d::Identity()).norm() < 1e-13);
+  }
+}
+
 }  // namespace heml::projection_test
