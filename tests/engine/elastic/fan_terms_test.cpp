@@ -225,10 +225,10 @@ TEST_CASE("kernels of elements that flow give the forces of the loops, after flo
 TEST_CASE("kernels of elements that flow and remember stress give the forces of the loops") {
   for (const InstructionSet isa : instruction_sets())
     for (const auto law : {"neo_hookean_iso", "mooney_rivlin", "ogden"})
-      for (const auto& [name, material] : with_terms(law)) {
-        CAPTURE(name);
-        check_flow<double>(isa, 1e-11, material);
-        check_flow<float>(isa, 1e-3, material);
+      for (const auto& named : with_terms(law)) {
+        CAPTURE(named.first);
+        check_flow<double>(isa, 1e-11, named.second);
+        check_flow<float>(isa, 1e-3, named.second);
       }
 }
 
