@@ -4,9 +4,9 @@ namespace heml {
 namespace {
 
 // ns a tetrahedron, as the ForceCost of a law, of what is beside its kernel, in either precision: `heml bench terms
-// --quick`, a step with it less that of the law alone. A vectorised loop over slots, in which laws run that fans do
-// not, takes several times as long as a pass within the fans. Active stress: a muscle with it and without.
-constexpr double a_loop = 20, a_pass = 4, active = 15, pressure_in_loops = 22, pressure_in_fans = 6;
+// --quick`, a step with it less that of the law alone. A vectorised loop over slots, in which laws run that kernels do
+// not, takes several times as long as a pass within a kernel.
+constexpr double a_loop = 20, a_pass = 4, active = 1, pressure_in_loops = 22, pressure_in_fans = 6;
 // ns a point of quadratic elements, which shares no edges with others: `heml solve` of a block with and without.
 constexpr double a_point = 12;
 constexpr double step_alone = 2;  // its own: positions, velocities, its bound
@@ -15,18 +15,17 @@ double cost_of(const KernelInfo& kernel, const WorldSetup& setup) {
   const Material& material = setup.materials[kernel.material].material;
   const ForceCost law = find_law(material.law)->cost;
   const bool in_loops = kernel.kernel == "corners";
-  const bool terms_in_loops = in_loops || kernel.kernel == "points and corners";
-  const double a_term = terms_in_loops ? a_loop : a_pass;
+  const double a_term = in_loops ? a_loop : a_pass;
   double cost = step_alone + (setup.solver.single_precision ? law.in_float : law.in_double);
   if (in_loops) cost += a_loop;
   if (kernel.kernel.starts_with("points")) cost += a_point;
   if (material.volume_term != VolumeTerm::quadratic) cost += a_term;
   if (!material.relaxation.empty())  // in loops the law is asked twice more
-    cost += a_term * (terms_in_loops ? 3 : 1 + static_cast<double>(material.relaxation.size()));
+    cost += a_term * (in_loops ? 3 : 1 + static_cast<double>(material.relaxation.size()));
   else if (material.viscosity > 0 || material.bulk_viscosity > 0)
     cost += a_term;
-  if (material.plasticity) cost += a_loop;
-  if (material.active_stress > 0) cost += active;
+  if (material.plasticity) cost += a_term;
+  if (material.active_stress > 0) cost += in_loops ? a_loop : active;
   return setup.solver.nodal_pressure ? cost + (in_loops ? pressure_in_loops : pressure_in_fans) : cost;
 }
 

@@ -234,12 +234,12 @@ TEST_CASE("auto weighs a step by its laws, its terms and its precision, until it
   CHECK(relaxing > viscous);
   CHECK(relaxing < 3 * plain);
   const double plastic = with([](Material& material) { material.plasticity = Plasticity{1e6, 0}; });
-  CHECK(plastic > relaxing);
-  CHECK(plastic < 6 * plain);
+  CHECK(plastic > plain);
+  CHECK(plastic < 2 * plain);
   CHECK(with([](Material& material) {
           material.plasticity = Plasticity{1e6, 0};
           material.relaxation = {{0.3, 0.1}};
-        }) > plastic + 2 * (relaxing - plain));  // in loops
+        }) == doctest::Approx(plastic + relaxing - plain));
   WorldSetup setup = cantilever("neo_hookean", 1e4);
   const auto world = make_world(setup);
   world->apply(SetStepCost{25});
