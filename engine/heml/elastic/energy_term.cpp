@@ -89,7 +89,7 @@ template <class P, class L>
   return t;
 }
 
-/// group_forces() on packs.
+/// GroupTerm::forces() on packs.
 template <class Real, class L>
 HEML_WIDE bool energy_forces(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                              std::size_t end, Real* corner, bool add) {

@@ -118,29 +118,6 @@ struct PackedElements {
   }
 };
 
-/// Corner forces of packets [begin, end) into corner (3 reals a corner), overwritten or added to. Returns whether the
-/// law is defined in all of them.
-template <class P, class L>
-[[gnu::always_inline]] inline bool group_forces(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
-                                                const Lane<P>* x, std::size_t begin, std::size_t end, Lane<P>* corner,
-                                                bool add) {
-  using Real = Lane<P>;
-  constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
-  Mask<P> valid = true;
-  for (std::size_t p = begin; p < end; ++p) {
-    const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
-    Real out[12][lanes];
-    for (std::size_t first = 0; first < lanes; first += width) {
-      const PackedElements<P, L::uses_I4> at(packet, first);
-      P f[12];
-      valid = valid && corner_forces(law.at(p * lanes + first), at.x[0], at.x[1], at.x[2], at.x[3], at.rest, f);
-      for (std::size_t i = 0; i < 12; ++i) __builtin_memcpy(out[i] + first, &f[i].v, sizeof f[i].v);
-    }
-    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
-  }
-  return L::always_valid || valid.all();
-}
-
 /// Writes the stiffness of the elements in the lanes of a pack, or adds it. first: their lane in packet p.
 template <class P>
 [[gnu::always_inline]] inline void write_packed_stiffness(const P (&k)[edge_entries], std::size_t p, std::size_t first,
@@ -205,25 +182,6 @@ template <class P, class L>
 
 /// T and wJ of a slot, as lists of lanes.
 inline constexpr std::size_t tension_entries = 7;
-
-/// Tensions of packets [begin, end): [packet][T, wJ][lanes].
-template <class P, class L>
-[[gnu::always_inline]] inline void group_tensions(PackedLaw<P, L> law, const ElementGroup<Lane<P>>& group,
-                                                  const Lane<P>* x, std::size_t begin, std::size_t end,
-                                                  Lane<P>* of_packets) {
-  constexpr std::size_t lanes = ElementGroup<Lane<P>>::lanes, width = P::lanes;
-  for (std::size_t p = begin; p < end; ++p) {
-    const Packet<Lane<P>, L::uses_I4> packet(group, x, p * lanes);
-    for (std::size_t first = 0; first < lanes; first += width) {
-      const PackedElements<P, L::uses_I4> at(packet, first);
-      const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
-      const Tensions<P> t = tensions(law.at(p * lanes + first), kinematics, at.rest);
-      Lane<P>* to = of_packets + tension_entries * lanes * (p - begin) + first;
-      for (std::size_t i = 0; i < 6; ++i) __builtin_memcpy(to + lanes * i, &t.T[i].v, sizeof t.T[i].v);
-      __builtin_memcpy(to + lanes * 6, &t.wJ.v, sizeof t.wJ.v);
-    }
-  }
-}
 
 /// Upper bounds of the von Mises Kirchhoff stress of a law of invariants in packets [begin, end), Pa, without its part
 /// of fibres: τ' = a B − b B² but for its trace, whose powers have traces that follow from I1, I2 and J

@@ -50,7 +50,8 @@ class GroupTerm {
   virtual DeviatoricStress<Real> deviatoric_stress(const Group&, std::size_t, const Real[3], Real) const { return {}; }
 
   // Packets [begin, end). Threads may call these on disjoint ranges.
-  /// See group_forces().
+  /// Corner forces into corner (3 reals a corner), overwritten or added to. Returns whether the term is defined in all.
+  /// Asked of what kernels of fans and points do not run.
   virtual bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
                       bool add) const;
   /// See group_stiffness().

@@ -13,11 +13,6 @@ template <class Real>
 using WidePack = Pack<Real, static_cast<int>(32 / sizeof(Real)), WideFamily>;
 
 template <class Real, class L>
-HEML_WIDE bool wide_forces(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
-                           std::size_t begin, std::size_t end, Real* corner, bool add) {
-  return group_forces<WidePack<Real>, L>({law, group}, group, x, begin, end, corner, add);
-}
-template <class Real, class L>
 HEML_WIDE void wide_stiffness(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
                               std::size_t begin, std::size_t end, Real scale, Real* K, bool add) {
   group_stiffness<WidePack<Real>, L>({law, group}, group, x, begin, end, scale, K, add);
@@ -26,11 +21,6 @@ template <class Real, class L>
 HEML_WIDE void wide_energy(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
                            std::size_t begin, std::size_t end, double scale, double* of_packet, bool add) {
   group_energy<WidePack<Real>, L>({law, group}, group, x, begin, end, scale, of_packet, add);
-}
-template <class Real, class L>
-HEML_WIDE void wide_tensions(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
-                             std::size_t begin, std::size_t end, Real* of_packets) {
-  group_tensions<WidePack<Real>, L>({law, group}, group, x, begin, end, of_packets);
 }
 template <class Real, class L>
 HEML_WIDE void wide_mises_bounds(const LawSource<Real, L>& law, const ElementGroup<Real>& group, const Real* x,
@@ -84,12 +74,6 @@ class LawTerm final : public GroupTerm<Real> {
 
   SlotStates<Real> slot_states() override { return {}; }
 
-  bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
-              bool add) const override {
-    if (!has_avx2()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
-    return wide_forces(source_, group, x, begin, end, corner, add);
-  }
-
   void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real scale, Real* K,
                  bool add) const override {
     if (has_avx2()) return wide_stiffness(source_, group, x, begin, end, scale, K, add);
@@ -106,12 +90,6 @@ class LawTerm final : public GroupTerm<Real> {
                 bool add) const override {
     if (!has_avx2()) return GroupTerm<Real>::energies(group, x, begin, end, scale, of_packet, add);
     wide_energy(source_, group, x, begin, end, scale, of_packet, add);
-  }
-
-  void packet_tensions(const Group& group, const Real* x, std::size_t begin, std::size_t end,
-                       Real* of_packets) const override {
-    if (!has_avx2()) return GroupTerm<Real>::packet_tensions(group, x, begin, end, of_packets);
-    wide_tensions(source_, group, x, begin, end, of_packets);
   }
 
   void mises_bounds(const Group& group, const Real* x, std::size_t begin, std::size_t end,
