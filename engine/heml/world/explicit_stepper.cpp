@@ -16,6 +16,7 @@ constexpr std::size_t coordinate_grain = 3 * 400;
 constexpr double growth_after_strain = 0.05;      // a step, of steps after one that deformed an element too much
 // Of the stable step: in shorter ones elements may be deformed as they will, so that time goes on.
 constexpr double shortest_step = 1.0 / 64;
+constexpr double most_over_rest = 1024;           // steps of a tick, over those at rest, before a recovery begins
 constexpr std::size_t cached_coordinates = 2048;  // still in the first-level cache when they are read again
 
 /// Whether |v| ≤ most for all coordinates [begin, end); false where one is NaN.
@@ -57,13 +58,15 @@ bool second_half(Real h, Real damping, const Real* inverse_mass, const Real* f, 
 
 template <class Real>
 std::optional<StopReason> ExplicitStepper<Real>::advance(double until, long most) {
+  const double begun = s_.state.time;
   for (long done = 0; s_.state.time < until && done < most && !s_.interrupted; ++done) {
     const StepOnTrial on_trial(trial_, s_.team);
     const double left = until - s_.state.time;
     double h = left;  // a given step is a whole tick
     if (!s_.setup->solver.step) {
       refresh_stable_step();
-      if (!(s_.limit.stable > min_step)) return StopReason{StopReason::Cause::unstable, -1, -1, why_no_step()};
+      if (!(s_.limit.stable > min_step) || (s_.recovery && static_cast<double>(done) > most_steps(until - begun)))
+        return StopReason{StopReason::Cause::unstable, -1, -1, why_no_step()};
       h = left / std::ceil(left / std::min(s_.limit.stable, s_.limit.of_strain));
     }
     const bool last = s_.state.time + 1.5 * h > until;
@@ -73,6 +76,13 @@ std::optional<StopReason> ExplicitStepper<Real>::advance(double until, long most
     if (failure && !may_try_shorter(*failure, std::min(h, s_.limit.of_strain))) return failure;
   }
   return std::nullopt;
+}
+
+/// In `time`, where the scene wants a recovery: elements so stretched or crushed that more are needed are not waited
+/// for.
+template <class Real>
+double ExplicitStepper<Real>::most_steps(double time) const {
+  return most_over_rest * std::ceil(time * static_cast<double>(s_.rest_frequency) / 2);
 }
 
 /// A given step is taken as it is; without cuts and contacts elements do not change so fast.

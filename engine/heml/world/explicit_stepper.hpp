@@ -29,6 +29,7 @@ class ExplicitStepper {
   bool checks_strain() const;
   bool may_try_shorter(const StopReason& failure, double h);
   void shorten(double h);
+  double most_steps(double time) const;
   std::string why_no_step() const;
 
   Simulation<Real>& s_;

@@ -10,8 +10,13 @@ constexpr double sliver = 0.05;        // of least height over longest edge
 constexpr double incompressible = 50;  // κ/μ, at ν = 0.49
 constexpr double fast = 1;             // of the speed of shear waves
 constexpr double least_shrink = 0.02;  // of lengths: less is borne by any law
+constexpr double bearable = 1024;      // times shorter than at rest steps may be
 
 std::string what(const FailureDiagnosis& s) {
+  if (s.min_J > 0 && s.shortened > bearable)
+    return fmt::format(
+        "{} so stretched or crushed at t = {:.4g} s that steps would have to be {:.0f} times shorter than at rest",
+        s.element < 0 ? "elements were" : fmt::format("element {} was", s.element), s.time, s.shortened);
   if (s.element < 0) return fmt::format("a node ran away at t = {:.4g} s", s.time);
   const std::string state = s.min_J > 0 ? "was pressed out of the range of its law" : "was flat or inside out";
   const std::string others = s.inverted > 1 ? fmt::format(", with {} in all inverted", s.inverted) : "";

@@ -12,6 +12,7 @@ struct FailureDiagnosis {
   int inverted = 0;            ///< elements with J ≤ 0
   bool from_start = false;     ///< the body was so when it was set up
   double step = 0, limit = 0;  ///< s: a given step of an explicit method and the live limit; 0: no step was given
+  double shortened = 1;        ///< the stable step at rest over the live limit
   double tool_speed = 0;       ///< m/s, lately; 0: no tool
   double wave_speed = 0;       ///< m/s, of shear waves
   double thinness = 1;         ///< of the element at rest: its least height over its longest edge

@@ -183,6 +183,8 @@ FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& check) con
   if (s_.setup->solver.step && is_explicit(s_.setup->solver.integrator)) {
     s.step = *s_.setup->solver.step;
     s.limit = s_.limit.stable;
+  } else if (is_explicit(s_.method)) {
+    s.shortened = 2 / static_cast<double>(s_.rest_frequency) / s_.limit.stable;
   }
   if (check.min_J >= min_healthy_J && check.speed > s_.recovery->max_speed) return s;
   s.element = s_.model->order.file_tet[static_cast<std::size_t>(check.worst)];

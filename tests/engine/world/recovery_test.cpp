@@ -377,6 +377,29 @@ TEST_CASE("recovery: a body thrown against its support is whole again afterwards
   }
 }
 
+TEST_CASE("recovery: a tick is never waited for that takes over a thousand times its steps at rest") {
+  for (const char* law : {"neo_hookean_iso", "mooney_rivlin"})
+    for (const double gravity : {3e3, 1e4, 1e5}) {
+      CAPTURE(law);
+      CAPTURE(gravity);
+      WorldSetup setup;
+      setup.mesh = make_box(Vec3(0.1, 0.1, 0.1), {2, 2, 2});
+      setup.materials = {{std::nullopt, sample_material(law)}};
+      setup.gravity = Vec3(0, -gravity, 0);
+      setup.tables = {{Vec3(0, -0.001, 0), Vec3(0, 1, 0)}};  // the block is crushed flat on it
+      setup.solver.rate = 100;
+      setup.solver.recovery = true;
+      const auto world = make_world(setup);
+      const double at_rest = std::ceil(setup.solver.tick() / world->stable_step());
+      for (int tick = 0; tick < 3; ++tick) {
+        const long before = world->steps();
+        world->tick();
+        REQUIRE_FALSE(world->halt());
+        CHECK(static_cast<double>(world->steps() - before) <= 1025 * at_rest);
+      }
+    }
+}
+
 TEST_CASE("recovery: the likely cause is the surest that fits, with its remedy") {
   FailureDiagnosis s;
   s.element = 7;
@@ -387,6 +410,10 @@ TEST_CASE("recovery: the likely cause is the surest that fits, with its remedy")
   CHECK(says("element 7 was flat or inside out"));
   CHECK(says("with 4 in all inverted"));
   CHECK(says("loads or moved supports"));
+  s.min_J = 4;
+  s.shortened = 2500;
+  CHECK(says("element 7 was so stretched or crushed"));
+  CHECK(says("2500 times shorter than at rest"));
   s.loaded = false;
   CHECK(says("no load acts"));
   s.loaded = true;
