@@ -13,15 +13,19 @@ FreeNodes::FreeNodes(const std::vector<bool>& is_free, std::vector<int> held_coo
     }
 }
 
-BlockMatrix::BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets) : free_(free) {
+BlockMatrix::BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets, std::span<const std::array<int, 2>> pairs)
+    : free_(free) {
   const std::size_t count = free.node.size();
   std::vector<std::vector<int>> above(count);
-  for (const Tet& tet : tets)
-    for (const int a : tet)
-      for (const int b : tet) {
+  const auto couple = [&](const auto& nodes) {
+    for (const int a : nodes)
+      for (const int b : nodes) {
         const int row = free.number[static_cast<std::size_t>(a)], column = free.number[static_cast<std::size_t>(b)];
         if (column >= 0 && row > column) above[static_cast<std::size_t>(column)].push_back(row);
       }
+  };
+  for (const Tet& tet : tets) couple(tet);
+  for (const auto& pair : pairs) couple(pair);
   start_.assign(1, 0);
   for (auto& list : above) {
     std::sort(list.begin(), list.end());
@@ -68,7 +72,9 @@ int BlockMatrix::place(int row, int column) const {
 void BlockMatrix::add_pair(int a, int b, const Mat3& B) {
   const int row = free_.number[static_cast<std::size_t>(a)], column = free_.number[static_cast<std::size_t>(b)];
   if (row < 0 || column < 0) return;
-  const int first = std::min(row, column), n = place(std::max(row, column), first);
+  const int first = std::min(row, column), last = std::max(row, column), n = place(last, first);
+  const auto neighbours = later_neighbours(static_cast<std::size_t>(first));
+  if (n == static_cast<int>(neighbours.size()) || neighbours[static_cast<std::size_t>(n)] != last) return;
   for (int j = 0; j < 3; ++j) {
     double* entry = block_column(static_cast<std::size_t>(first), n, static_cast<std::size_t>(j));
     for (int i = 0; i < 3; ++i) entry[i] += row > column ? B(i, j) : B(j, i);

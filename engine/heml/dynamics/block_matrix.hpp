@@ -34,14 +34,16 @@ struct FreeNodes {
 
 class BlockMatrix {
  public:
-  /// free must outlive the matrix. tets give the sparsity pattern; nodes that are not free are ignored throughout.
-  BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets);
+  /// free must outlive the matrix. tets and pairs of nodes give the sparsity pattern; nodes that are not free are
+  /// ignored throughout.
+  BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets, std::span<const std::array<int, 2>> pairs = {});
 
   void set_zero();
   /// Adds the element stiffness K(row, column), indices [node][xyz].
   template <std::size_t count, class Entry>
   void add_element(const std::array<int, count>& nodes, const Entry& K);
-  /// Adds B to the block (a, b) of two nodes of one element, and so Bᵀ to (b, a).
+  /// Adds B to the block (a, b) of two nodes of one element or pair, and so Bᵀ to (b, a). Others have no block: nothing
+  /// is added.
   void add_pair(int a, int b, const Mat3& B);
   /// Adds a symmetric B to the block of a node.
   void add_node(int node, const Mat3& B);

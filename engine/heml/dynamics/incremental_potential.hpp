@@ -47,6 +47,7 @@ class IncrementalPotential final : public Objective {
     potential_.add_stiffness(matrix);
     for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_of_node(mass_, n));
   }
+  void add_coupled_pairs(std::vector<std::array<int, 2>>& pairs) const override { potential_.add_coupled_pairs(pairs); }
   bool assemble_single_precision(BsrMatrix& rows) override {
     if (!potential_.assemble_single_precision(rows)) return false;
     for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_of_node(mass_, n));

@@ -45,7 +45,17 @@ void LinearSolver::limit_iterations(int iterations) {
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
 void LinearSolver::assemble(Objective& objective) {
-  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, pattern_ ? pattern_->coupled : mesh_->tets);
+  std::vector<std::array<int, 2>> pairs;
+  if (preconditioner_ == Preconditioner::cholesky) objective.add_coupled_pairs(pairs);
+  for (auto& [a, b] : pairs)
+    if (a > b) std::swap(a, b);
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  if (!matrix_ || pairs != pairs_) {  // of these pairs alone, whatever were before: the bits are a restored world's
+    matrix_ = std::make_unique<BlockMatrix>(free_, pattern_ ? pattern_->coupled : mesh_->tets, pairs);
+    factor_.reset();
+    pairs_ = std::move(pairs);
+  }
   matrix_->set_zero();
   objective.add_stiffness(*matrix_);
   if (shift_ > 0)

@@ -117,6 +117,7 @@ class LinearSolver {
   ThreadTeam& team_;
   InstructionSet instruction_set_;
   std::unique_ptr<BlockMatrix> matrix_;  ///< built on first use, like the members below
+  std::vector<std::array<int, 2>> pairs_;  ///< that it couples besides the elements, ascending
   std::unique_ptr<SupernodalLdlt> factor_;
   Vector divisors_;  ///< |D|, in the factor's order
   std::unique_ptr<SmoothedAggregation> scalar_;

@@ -48,8 +48,11 @@ class Objective {
   virtual void product(const Vector& dx, Vector& out) = 0;
   /// Whether K is symmetric, as it is if the forces have a potential.
   virtual bool is_symmetric() const { return true; }
-  /// Adds the blocks of K between free nodes; the symmetric part or an approximation will do.
+  /// Adds the blocks of K between free nodes that the matrix has a place for; the symmetric part or an approximation
+  /// will do.
   virtual void add_stiffness(BlockMatrix& matrix) = 0;
+  /// Adds the pairs of nodes that K couples and that share no element; any order, some perhaps more than once.
+  virtual void add_coupled_pairs(std::vector<std::array<int, 2>>&) const {}
   /// Makes a matrix in float K between free nodes, without its rank-one terms. Returns false if K is not symmetric
   /// or does not fit the sparsity pattern.
   virtual bool assemble_single_precision(BsrMatrix&) { return false; }

@@ -264,6 +264,13 @@ void ContactPotential::add_product(const Vector& dx, Vector& out) const {
   }
 }
 
+void ContactPotential::add_coupled_pairs(std::vector<std::array<int, 2>>& pairs) const {
+  for (const auto& [point, K] : blocks_)
+    if (point.count != 3)  // else the corners of a face
+      for (std::size_t a = 0; a < static_cast<std::size_t>(point.count); ++a)
+        for (std::size_t b = 0; b < a; ++b) pairs.push_back({point.nodes[a], point.nodes[b]});
+}
+
 void ContactPotential::add_rank_one_terms(std::vector<RankOneTerm>& terms) const {
   for (const auto& [point, K] : blocks_) {
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(K);

@@ -92,12 +92,13 @@ class ContactPotential : private ContactPotentialMemory {
   /// Since linearise(), this part of the step that its stiffness suggests was taken.
   void step_taken(double part) { step_taken_ = part; }
   void add_product(const Vector& dx, Vector& out) const;
-  /// Calls visit(a, b, 3×3 block in N/m, of a's rows and b's columns) for diagonal blocks (a == b) and for pairs of
-  /// corners of one face, each pair once a contact. Of threads and self-contact, whose nodes share no element, only
-  /// diagonal blocks are visited.
+  /// Calls visit(a, b, 3×3 block in N/m, of a's rows and b's columns) for diagonal blocks (a == b) and for pairs, each
+  /// pair once a contact.
   template <class Visit>
   void each_block(const Visit& visit) const;
 
+  /// Adds the pairs of nodes of threads and self-contact, which need not share an element.
+  void add_coupled_pairs(std::vector<std::array<int, 2>>& pairs) const;
   /// Adds the stiffness as a sum of rank-one terms.
   void add_rank_one_terms(std::vector<RankOneTerm>& terms) const;
   /// Updates the lagged quantities from a solution x: contact pairs, penalty stiffness and friction bounds. Returns
@@ -130,13 +131,12 @@ void ContactPotential::each_block(const Visit& visit) const {
   for (const auto& [point, K] : blocks_)
     for (std::size_t a = 0; a < static_cast<std::size_t>(point.count); ++a)
       for (std::size_t b = 0; b <= a; ++b)
-        if (const double weight = point.weights[a] * point.weights[b]; weight != 0 && (a == b || point.count == 3))
+        if (const double weight = point.weights[a] * point.weights[b]; weight != 0)
           visit(point.nodes[a], point.nodes[b], Mat3(weight * K));
   for (const RankOneTerm& slide : slides_)
-    if (slide.count == 3)
-      for (std::size_t a = 0; a < 3; ++a)
-        for (std::size_t b = 0; b <= a; ++b)
-          visit(slide.nodes[a], slide.nodes[b], Mat3(slide.sign * slide.g[a] * slide.g[b].transpose()));
+    for (std::size_t a = 0; a < static_cast<std::size_t>(slide.count); ++a)
+      for (std::size_t b = 0; b <= a; ++b)
+        visit(slide.nodes[a], slide.nodes[b], Mat3(slide.sign * slide.g[a] * slide.g[b].transpose()));
 }
 
 }  // namespace heml

@@ -105,6 +105,9 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   void product(const Vector& dx, Vector& out) override;
   bool is_symmetric() const override { return linearisation_point_.size() == 0; }
   void add_stiffness(BlockMatrix& matrix) override;
+  void add_coupled_pairs(std::vector<std::array<int, 2>>& pairs) const override {
+    if (!contact_.empty()) contact_.add_coupled_pairs(pairs);
+  }
   bool assemble_single_precision(BsrMatrix& rows) override;
   void add_rank_one_terms(std::vector<RankOneTerm>& terms) const override {
     if (!contact_.empty()) contact_.add_rank_one_terms(terms);
