@@ -46,7 +46,7 @@ void LinearSolver::set_inertia(double a) { a_ = a; }
 
 void LinearSolver::assemble(Objective& objective) {
   std::vector<std::array<int, 2>> pairs;
-  if (preconditioner_ == Preconditioner::cholesky) objective.add_coupled_pairs(pairs);
+  if (is_factored_) objective.add_coupled_pairs(pairs);
   for (auto& [a, b] : pairs)
     if (a > b) std::swap(a, b);
   std::sort(pairs.begin(), pairs.end());
@@ -94,20 +94,28 @@ void LinearSolver::invert_blocks() {
   }
 }
 
+LinearSolver::Definiteness LinearSolver::assemble_and_factor(Objective& objective) {
+  is_factored_ = true;
+  assemble(objective);
+  return factor();
+}
+
 LinearSolver::Definiteness LinearSolver::prepare(Objective& objective) {
+  is_factored_ = false;
   switch (preconditioner_) {
     case Preconditioner::cholesky:
-      assemble(objective);
-      return factor();
+      return assemble_and_factor(objective);
     case Preconditioner::block_jacobi:
       assemble(objective);
       invert_blocks();
       return Definiteness::positive;
     case Preconditioner::scalar:
     case Preconditioner::multilevel: {
-      if (!factorise_scalar()) return Definiteness::none;
       std::vector<RankOneTerm> terms;
       objective.add_rank_one_terms(terms);
+      if (terms.size() > LowRankUpdate::max_terms && free_.node.size() <= max_direct_unknowns_in_contact)
+        return assemble_and_factor(objective);
+      if (!factorise_scalar()) return Definiteness::none;
       update_.set(*scalar_, terms);
       return Definiteness::positive;
     }
@@ -130,6 +138,7 @@ std::size_t LinearSolver::max_direct_unknowns() const {
 
 bool LinearSolver::keep_elements(const TetMesh& mesh, const std::vector<int>& elements) {
   mesh_ = &mesh;
+  matrix_.reset(), factor_.reset();
   if (!scalar_) return false;
   modulus_ = with_elements(modulus_, elements);
   if (single_precision_cg_) {
@@ -232,7 +241,7 @@ void LinearSolver::apply_factor(const Vector& r, Vector& z) {
 }
 
 void LinearSolver::apply(const Vector& r, Vector& z) {
-  if (preconditioner_ == Preconditioner::cholesky) return apply_factor(r, z);
+  if (is_factored_) return apply_factor(r, z);
   if (scalar_) {
     scalar_->apply(r, z);
     update_.correct(z);
@@ -260,7 +269,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
 
 /// Whether the solve can run in float; if so, assembles the stiffness in float.
 bool LinearSolver::supports_single_precision(Objective& objective, double tolerance) {
-  if (!scalar_ || tolerance < min_float_tolerance) return false;
+  if (is_factored_ || !scalar_ || tolerance < min_float_tolerance) return false;
   if (!single_precision_cg_) {
     BsrMatrix K = pattern_ ? BsrMatrix(free_.number, pattern_->elements) : BsrMatrix(free_.number, mesh_->tets);
     single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, std::move(K), team_);

@@ -16,6 +16,9 @@ constexpr std::size_t max_direct_unknowns_each_time(bool static_solve) { return 
 /// Number of free nodes up to which a factor of the scalar matrix costs less than multigrid, which needs one or two
 /// iterations more: a cycle takes as long as back-solves at 1,200 nodes, a quarter at 6,500, an eighth at 21,000.
 inline constexpr std::size_t max_direct_unknowns_once = 1000;
+/// Number of free nodes up to which implicit steps factor the stiffness wherever contact has more terms than the other
+/// preconditioners can know.
+inline constexpr std::size_t max_direct_unknowns_in_contact = 20000;
 
 /// Chooses by size with a fixed cost model, never by measured time, so that the choice is reproducible.
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve);
@@ -96,6 +99,7 @@ class LinearSolver {
   enum class Definiteness { positive, indefinite, none };  ///< of a factor's pivots; none: no factor
   void assemble(Objective& objective);
   Definiteness factor();
+  Definiteness assemble_and_factor(Objective& objective);
   Definiteness prepare(Objective& objective);
   bool factorise_scalar();
   std::size_t max_direct_unknowns() const;
@@ -111,6 +115,7 @@ class LinearSolver {
   const QuadraticPattern* pattern_;  ///< null: the elements of the mesh
   const Vector& mass_;
   Preconditioner preconditioner_;
+  bool is_factored_ = false;  ///< whether the factor of the stiffness serves the present solve
   Projection projection_;
   int max_iterations_;
   double shift_ = 0;  ///< N/m, added to every diagonal entry of K

@@ -5,7 +5,6 @@
 
 namespace heml {
 namespace {
-constexpr std::size_t max_strong = 512;                          // the matrix of so many is factored in some 20 ms
 constexpr std::size_t max_column_values = std::size_t(1) << 24;  // 64 MiB
 constexpr double weakest_term = 0.3;                             // of the stiffness of P: less costs more than it saves
 constexpr double column_round_off = 1e-6;                        // of P⁻¹, which is computed in float
@@ -94,12 +93,12 @@ void LowRankUpdate::find_correction(SmoothedAggregation& P) {
 }
 
 void LowRankUpdate::keep_strongest() {
-  if (strong_.size() <= max_strong) return;
+  if (strong_.size() <= max_terms) return;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t t = 0; t < strong_.size(); ++t) order.emplace_back(-coupling(strong_[t], strong_[t]), t);
   std::sort(order.begin(), order.end());
   std::vector<Term> kept;
-  for (std::size_t k = 0; k < max_strong; ++k) kept.push_back(strong_[order[k].second]);
+  for (std::size_t k = 0; k < max_terms; ++k) kept.push_back(strong_[order[k].second]);
   strong_ = std::move(kept);
 }
 

@@ -23,6 +23,8 @@ class LowRankUpdate {
   /// To be called when P has changed: forgets columns and terms.
   void reset();
   void set(SmoothedAggregation& P, const std::vector<RankOneTerm>& terms);
+  /// Of more terms the strongest are in the preconditioner; the matrix of so many is factored in some 20 ms.
+  static constexpr std::size_t max_terms = 512;
 
   bool empty() const { return terms_.empty(); }
 

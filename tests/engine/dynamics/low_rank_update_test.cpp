@@ -246,6 +246,31 @@ TEST_CASE("the exact factor knows what couples nodes that share no element, what
   CHECK(iterations_with(many) > 20);
 }
 
+TEST_CASE("where more points are stiff than a preconditioner can know, the stiffness is factored, and only there") {
+  Cube cube(12, true);
+  LinearSolver solver(cube.free, cube.mesh, cube.modulus, cube.mass, Preconditioner::multilevel, Projection::none,
+                      cube.team);
+  solver.set_inertia(1);
+  std::mt19937_64 random(3);
+  Vector r = Vector::Zero(cube.mass.size()), once;
+  for (const int n : cube.free.node) r.segment<3>(3 * n) = random_vector(random, 1);
+  cube.free.clear_held(r);
+  for (const std::size_t number : {0, 40, 600, 40, 600}) {
+    CAPTURE(number);
+    Pegged objective(cube, terms_of(cube, number));
+    objective.linearise(Vector::Zero(cube.mass.size()));
+    const long before = solver.counts().iterations;
+    Vector d, back;
+    CHECK(solver.solve(objective, r, 1e-3, d));
+    objective.product(d, back);
+    CHECK((back - r).norm() <= 1.1e-3 * r.norm());
+    const long iterations = solver.counts().iterations - before;
+    CHECK((iterations <= 2) == (number == 600));
+    if (number == 600 && once.size() > 0) CHECK(d == once);  // whatever came between
+    if (number == 600) once = d;
+  }
+}
+
 TEST_CASE("an update does not depend on which columns earlier ones have needed, nor on the number of threads") {
   Cube cube(12);
   SmoothedAggregation P = cube.preconditioner();
