@@ -135,6 +135,15 @@ class Pegged final : public NodesAndSprings {
   Eigen::MatrixXd G_;
 };
 
+/// At random, #V·3.
+Vector forces_on(const Cube& cube) {
+  std::mt19937_64 random(3);
+  Vector r = Vector::Zero(cube.mass.size());
+  for (const int n : cube.free.node) r.segment<3>(3 * n) = random_vector(random, 1);
+  cube.free.clear_held(r);
+  return r;
+}
+
 /// Pushes single nodes 1e4 times as hard as springs do.
 std::vector<RankOneTerm> pegs(const Cube& cube, std::size_t number) {
   std::mt19937_64 random(11);
@@ -209,10 +218,8 @@ TEST_CASE("stiff points cost conjugate gradients few iterations, in float and in
       LinearSolver solver(cube.free, cube.mesh, cube.modulus, cube.mass, Preconditioner::multilevel, Projection::none,
                           cube.team);
       solver.set_inertia(1);
-      std::mt19937_64 random(3);
-      Vector r = Vector::Zero(cube.mass.size()), d, back;
-      for (const int n : cube.free.node) r.segment<3>(3 * n) = random_vector(random, 1);
-      cube.free.clear_held(r);
+      const Vector r = forces_on(cube);
+      Vector d, back;
       CHECK(solver.solve(objective, r, tolerance, d));
       objective.product(d, back);
       CHECK((back - r).norm() <= 1.1 * tolerance * r.norm());
@@ -227,10 +234,7 @@ TEST_CASE("the exact factor knows what couples nodes that share no element, what
   Cube cube(3, true);
   LinearSolver solver(cube.free, cube.mesh, cube.modulus, cube.mass, Preconditioner::cholesky, Projection::none,
                       cube.team);
-  std::mt19937_64 random(4);
-  Vector r = Vector::Zero(cube.mass.size());
-  for (const int n : cube.free.node) r.segment<3>(3 * n) = random_vector(random, 1);
-  cube.free.clear_held(r);
+  const Vector r = forces_on(cube);
   const auto iterations_with = [&](Pegged& objective) {
     objective.linearise(Vector::Zero(cube.mass.size()));
     const long before = solver.counts().iterations;
@@ -251,10 +255,8 @@ TEST_CASE("where more points are stiff than a preconditioner can know, the stiff
   LinearSolver solver(cube.free, cube.mesh, cube.modulus, cube.mass, Preconditioner::multilevel, Projection::none,
                       cube.team);
   solver.set_inertia(1);
-  std::mt19937_64 random(3);
-  Vector r = Vector::Zero(cube.mass.size()), once;
-  for (const int n : cube.free.node) r.segment<3>(3 * n) = random_vector(random, 1);
-  cube.free.clear_held(r);
+  const Vector r = forces_on(cube);
+  Vector once;
   for (const std::size_t number : {0, 40, 600, 40, 600}) {
     CAPTURE(number);
     Pegged objective(cube, terms_of(cube, number));
