@@ -78,13 +78,13 @@ function(heml_names_of_file path result)
       list(APPEND names ${CMAKE_MATCH_1})
     elseif(inside AND NOT line MATCHES "^namespace ")  # a short name of a namespace may be said twice
       string(REGEX REPLACE " //.*$" "" code "${line}")
-      string(REPLACE ";" "=" code "${code}")  # which CMake would take for the end of a list's item
-      string(REGEX MATCHALL "[A-Za-z_][A-Za-z0-9_]*( : | *[({=[])" found "${code}")
-      list(FILTER found EXCLUDE REGEX "^(void|bool|int|double|float|auto|decltype|requires|alignas|static_assert)[({[]")
+      string(REGEX REPLACE "[][;]" "=" code "${code}")  # of which CMake makes the ends of a list's items, or none
+      string(REGEX MATCHALL "[A-Za-z_][A-Za-z0-9_]*( : | *[({=])" found "${code}")
+      list(FILTER found EXCLUDE REGEX "^(void|bool|int|double|float|auto|decltype|requires|alignas|static_assert)[({=]")
       if(NOT found MATCHES "^[A-Za-z0-9_]* *=")  # a function or a type: what follows are its parameters
         list(SUBLIST found 0 1 found)
       endif()
-      list(TRANSFORM found REPLACE "( : | *[({=[])$" "")
+      list(TRANSFORM found REPLACE "( : | *[({=])$" "")
       list(APPEND names ${found})
     endif()
     set(before "${line}")
