@@ -67,6 +67,7 @@ class Messages(ProgramCase):
                  {"materials": [NEO_HOOKEAN, NEO_HOOKEAN | {"region": 3}]}),
                 ("materials[0]: the default applies to no element",
                  {"materials": [NEO_HOOKEAN, NEO_HOOKEAN | {"region": 0}]}),
+                ("self_contact.within_bodies: false leaves out all contact", {"self_contact": {"within_bodies": False}}),
                 ("1 of 1 events are left out", {"solver": {"integrator": "static"}, "events": [{"step": 3, "release": True}]}),
                 ("1 of 2 events are left out: they come after solver.duration, 0.05 s",
                  {"events": [{"at": 0.01, "gravity": [0, 0, 0]}, {"at": 2, "gravity": [0, 1, 0]}]}),

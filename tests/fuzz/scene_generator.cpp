@@ -386,7 +386,9 @@ class Generator {
       scene["regions"][0].erase("material");
     }
     if (dice_.chance(0.3)) scene["tables"] = tables();
-    if (dice_.chance(0.3)) scene["self_contact"] = dice_.chance(0.5) ? Json(true) : Json{{"friction", 0.5}};
+    if (dice_.chance(0.3))
+      scene["self_contact"] =
+          dice_.chance(0.5) ? Json(true) : Json{{"friction", 0.5}, {"within_bodies", dice_.chance(0.5)}};
     if (dice_.chance(0.2)) scene["tearing"] = {{"stretch", 1 + dice_.magnitude(-3, 0)}};
     if (dice_.chance(0.5)) scene["gravity"] = vector(-20, 20);
     if (dice_.chance(0.4)) scene["outputs"] = outputs();

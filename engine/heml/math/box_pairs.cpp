@@ -72,7 +72,7 @@ struct PairSearch {
 }  // namespace
 
 std::vector<std::pair<int, int>> intersecting_pairs(const std::vector<Box>& boxes, const std::vector<int>& group,
-                                                    double between) {
+                                                    double between, bool within) {
   std::vector<std::vector<int>> groups(1);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const std::size_t g = group.empty() ? 0 : static_cast<std::size_t>(group[i]);
@@ -88,7 +88,8 @@ std::vector<std::pair<int, int>> intersecting_pairs(const std::vector<Box>& boxe
     round_trees.emplace_back(tree.box(tree.root).min() - more, tree.box(tree.root).max() + more);
   }
   PairSearch search;
-  for (const BoxTree& tree : trees) search.among(tree, tree.root);
+  if (within)
+    for (const BoxTree& tree : trees) search.among(tree, tree.root);
   if (trees.size() > 1)
     for (const auto& [a, b] : intersecting_pairs(round_trees)) {
       const BoxTree &one = trees[static_cast<std::size_t>(a)], &other = trees[static_cast<std::size_t>(b)];

@@ -209,10 +209,12 @@ Json tables_json(const std::vector<Table>& tables) {
 
 std::optional<SelfContactSettings> self_contact_from(const JsonCursor& key) {
   if (key.json().is_boolean()) return key.flag() ? std::optional(SelfContactSettings{}) : std::nullopt;
-  if (!key.json().is_object()) key.refuse("must be true, false, or {\"friction\": coefficient}");
+  if (!key.json().is_object())
+    key.refuse("must be true, false, or {\"friction\": coefficient, \"within_bodies\": true or false}");
   const ObjectReader object(key, keys_of("self_contact"));
   SelfContactSettings settings;
   object.read("friction", settings.friction);
+  if (const auto within = object.find("within_bodies")) settings.within_bodies = within->flag();
   return settings;
 }
 
@@ -225,7 +227,11 @@ TearingSettings tearing_from(const JsonCursor& key) {
 
 Json tearing_json(const TearingSettings& settings) { return {{"stretch", settings.stretch}}; }
 
-Json self_contact_json(const SelfContactSettings& settings) { return {{"friction", settings.friction}}; }
+Json self_contact_json(const SelfContactSettings& settings) {
+  Json json{{"friction", settings.friction}};
+  if (!settings.within_bodies) json["within_bodies"] = false;
+  return json;
+}
 
 std::vector<int> regions_from(const JsonCursor& key) {
   std::vector<int> regions;

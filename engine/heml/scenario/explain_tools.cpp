@@ -12,8 +12,9 @@ std::vector<ToolFacts> tools_of(const Scene& scene, const WorldSetup& setup) {
                                           table.friction)});
   if (setup.self_contact)
     tools.push_back(
-        {"self-contact", fmt::format("friction {:.3g}; pairs of faces that come near each other are searched",
-                                     setup.self_contact->friction)});
+        {"self-contact",
+         fmt::format("friction {:.3g}; pairs of faces{} that come near each other are searched",
+                     setup.self_contact->friction, setup.self_contact->within_bodies ? "" : " of different bodies")});
   if (setup.tearing)
     tools.push_back(
         {"tearing", fmt::format("faces open where elements are stretched beyond {:.3g}", setup.tearing->stretch)});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/connected_parts.hpp>
 #include <heml/mesh/region_tag.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/adapt.hpp>
@@ -72,6 +73,17 @@ void check_materials(const Scene& scene, const TetMesh& mesh) {
   }
 }
 
+/// Contact between bodies does nothing in one body, until it is cut into several.
+void warn_of_one_body(const Scene& scene, const WorldSetup& setup) {
+  if (!setup.self_contact || setup.self_contact->within_bodies) return;
+  const std::vector<int> part = connected_parts(setup.mesh, setup.midedges);
+  const auto is_of_first = [&](const Tet& tet) {
+    return part[static_cast<std::size_t>(tet[0])] == part[static_cast<std::size_t>(setup.mesh.tets[0][0])];
+  };
+  if (std::all_of(setup.mesh.tets.begin(), setup.mesh.tets.end(), is_of_first))
+    warn("{}: self_contact.within_bodies: false leaves out all contact while the mesh is one body", scene.file);
+}
+
 WorldSetup refined_setup(const Scene& scene, WorldSetup setup) {
   const RefineGoal& goal = *scene.mesh.refine;
   Adaptation adapted = adapt(scene, std::move(setup), goal, {},
@@ -120,6 +132,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges) {
   }
   setup.tables = scene.tables;
   setup.self_contact = scene.self_contact;
+  warn_of_one_body(scene, setup);
   setup.tearing = scene.tearing;
   setup.gravity = scene.gravity;
   setup.solver = scene.solver;

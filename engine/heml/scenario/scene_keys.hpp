@@ -199,6 +199,9 @@ inline constexpr KeyInfo tables[] = {
 };
 inline constexpr KeyInfo self_contact[] = {
     friction_row,
+    {"within_bodies", form::flag, "", "true",
+     "`false`: bodies that share no node bear on each other alone, and no fold or cut of one on itself; takes less "
+     "time"},
 };
 inline constexpr KeyInfo tearing[] = {
     {"stretch", form::other("number > 1"), "", required, "greatest principal stretch that elements bear"},

@@ -23,7 +23,13 @@ std::array<Vec3, 4> between(const std::array<Vec3, 4>& a, const std::array<Vec3,
 }  // namespace
 
 SelfContact::SelfContact(const SelfContactSettings& settings, const TetMesh& mesh)
-    : friction_(settings.friction), skin_(mesh), edge_(skin_.mean_edge()), to_(skin_.nodes().size()) {}
+    : friction_(settings.friction),
+      within_bodies_(settings.within_bodies),
+      skin_(mesh),
+      edge_(skin_.mean_edge()),
+      to_(skin_.nodes().size()) {
+  for (const Triangle& face : skin_.faces()) body_of_face_.push_back(skin_.body_of(face[0]));
+}
 
 void SelfContact::find(const std::vector<ContactPair>& held) {
   contacts_.clear();
@@ -186,7 +192,8 @@ bool SelfContact::is_out_of_both(const Candidate& candidate, const std::array<Ve
 }
 
 std::size_t SelfContact::bytes() const {
-  return skin_.bytes() + bytes_of(to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_) +
+  return skin_.bytes() +
+         bytes_of(body_of_face_, to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_) +
          bytes_of(awake_, woken_.reference, swept_.from, swept_.boxes, swept_.candidates, contacts_, points_) +
          bytes_of(searched_.allowance.of_node, filtered_.allowance.of_node, woken_.allowance.of_node,
                   awake_travel_.of_node);

@@ -14,7 +14,8 @@
 //       of crossing,
 //   (3) the penetration is below half the height of the element behind.
 // In a body without inverted elements no node lies in an element of its neighbours, so neighbours are no contact. Pairs
-// that overlap at rest are ignored.
+// that overlap at rest are ignored. Where bodies bear on each other alone (`within_bodies` false), only pairs of two
+// are searched: a tenth of them, where small bodies lie on each other.
 //
 //   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► wake, filter, or broad phase;
 //                  sweep where one step alone moves them further than a filter may allow
@@ -140,7 +141,9 @@ class SelfContact {
   bool is_outside_within(const AwakeCandidate& awake, double allowance) const;
 
   double friction_;
+  bool within_bodies_;
   ContactSkin skin_;  ///< at the step's start
+  std::vector<int> body_of_face_;
   double edge_;       ///< m, mean length at rest
   Positions to_;      ///< m, at its end
   CandidateSet searched_, filtered_;

@@ -88,8 +88,6 @@ double SelfContact::reach_of(double travel) const { return 2 * travel + (touch_g
 void SelfContact::broad_phase(const ContactTravel& step) {
   ++broad_phase_count_;
   searched_ = {skin_.x(), allowance(step, search_steps, min_allowance, max_allowance)};
-  std::vector<int> body_of_face;
-  for (const Triangle& face : skin_.faces()) body_of_face.push_back(skin_.body_of(face[0]));
   const auto box_of = [this](int n) {
     return around(Eigen::AlignedBox3d(skin_.x()[at(n)]), reach_of(searched_.allowance.of_node[at(n)]) / 2);
   };
@@ -97,7 +95,7 @@ void SelfContact::broad_phase(const ContactTravel& step) {
   std::vector<Eigen::AlignedBox3d> of_edges;
   for (const auto& edge : skin_.edges()) of_edges.push_back(box_of(edge.ends[0]).merged(box_of(edge.ends[1])));
   const double of_bodies = searched_.allowance.of_bodies;
-  const auto faces = intersecting_pairs(of_faces, body_of_face, of_bodies);
+  const auto faces = intersecting_pairs(of_faces, body_of_face_, of_bodies, within_bodies_);
   collect(faces, broad_candidates_, [&](const Candidate& candidate) {
     const auto& [edges, first, second] = candidate;
     // Of most pairs of faces whose boxes intersect few nodes and edges do.
@@ -127,7 +125,7 @@ void SelfContact::sweep() {
     return box_of(a).merged(box_of(b)).intersects(boxes[at(one)].merged(boxes[at(two)]));
   };
   std::vector<Candidate> found;
-  collect(intersecting_pairs(boxes), found, [&](const Candidate& candidate) {
+  collect(intersecting_pairs(boxes, body_of_face_, 0, within_bodies_), found, [&](const Candidate& candidate) {
     const auto& [edges, first, second] = candidate;
     if (!can_meet(candidate)) return false;
     return edges ? is_near(first, second) && is_near(second, first) : box_of(first).intersects(boxes[at(second)]);

@@ -5,7 +5,8 @@ namespace heml {
 
 /// Self-contact (self_contact.hpp).
 struct SelfContactSettings {
-  double friction = 0;  ///< Coulomb's coefficient
+  double friction = 0;        ///< Coulomb's coefficient
+  bool within_bodies = true;  ///< false: bodies bear on each other alone, none on itself
 };
 
 /// Tearing (tearing.hpp).

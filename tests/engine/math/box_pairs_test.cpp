@@ -51,6 +51,11 @@ TEST_CASE("pairs of boxes: those that a search of all pairs finds, each once, wh
         of_groups.emplace_back(static_cast<int>(a), static_cast<int>(b));
   CHECK(of_groups.size() > expected.size());
   CHECK(sorted(intersecting_pairs(boxes, group, margin)) == of_groups);
+  std::erase_if(of_groups, [&](const auto& pair) {
+    return group[static_cast<std::size_t>(pair.first)] == group[static_cast<std::size_t>(pair.second)];
+  });
+  CHECK(of_groups.size() > 100);
+  CHECK(sorted(intersecting_pairs(boxes, group, margin, false)) == of_groups);
 }
 
 TEST_CASE("pairs of boxes: boxes that touch are a pair, one box alone or none has none") {

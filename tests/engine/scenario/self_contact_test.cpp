@@ -51,6 +51,10 @@ TEST_CASE("self-contact and tearing read back as they were written, and are off 
   const Scene scene = test::small_scene_with(R"({"self_contact": {"friction": 0.3}, "tearing": {"stretch": 1.7}})");
   CHECK(scene.self_contact->friction == 0.3);
   CHECK(scene.tearing->stretch == 1.7);
+  CHECK(scene.self_contact->within_bodies);
+  const Scene between = test::small_scene_with(R"({"self_contact": {"within_bodies": false}})");
+  CHECK_FALSE(between.self_contact->within_bodies);
+  CHECK_FALSE(parse_scene(scene_line(between), "folder/scene.json").self_contact->within_bodies);
   const Scene again = parse_scene(scene_line(scene), "folder/scene.json");
   CHECK(scene_line(again) == scene_line(scene));
   CHECK(again.self_contact->friction == 0.3);
@@ -62,6 +66,7 @@ TEST_CASE("self-contact and tearing that cannot be meant are refused, with their
   CHECK(says(refused(R"({"self_contact": 1})"), "self_contact: is 1"));
   CHECK(says(refused(R"({"self_contact": 1})"), "true, false, or"));
   CHECK(says(refused(R"({"self_contact": {"frction": 1}})"), "did you mean 'friction'?"));
+  CHECK(says(refused(R"({"self_contact": {"within_bodies": 0}})"), "self_contact.within_bodies: is 0"));
   CHECK(says(refused(R"({"self_contact": {"friction": -1}})"), "self_contact.friction: is -1"));
   CHECK(says(refused(R"({"tearing": true})"), "must be an object"));
   CHECK(says(refused(R"({"tearing": {}})"), "'stretch' is missing"));
@@ -76,6 +81,15 @@ TEST_CASE("solve reports what tissue bears of tissue") {
   CHECK(report.at("self_contact").at("touching") > 0);
   CHECK(report.at("self_contact").at("deepest") < 1e-4);
   CHECK_FALSE(solved(strip).contains("self_contact"));
+}
+
+TEST_CASE("lobes of one body pass through each other where bodies bear on each other alone") {
+  std::string scene = lobes;
+  const std::string friction = R"("friction": 0.25)";
+  scene.replace(scene.find(friction), friction.size(), friction + R"(, "within_bodies": false)");
+  const Json report = solved(scene.c_str());
+  CHECK(report.at("self_contact").at("touching") == 0);
+  CHECK(report.at("self_contact").at("force") == 0.0);
 }
 
 TEST_CASE("solve reports a tear") {
