@@ -112,7 +112,7 @@ def kidney_on_pad():
     scene("kidney_on_pad", "Kidney on a soft pad", "Two bodies touch: a kidney falls on a pad that is softer than itself and sinks in; "
           "it is lifted at one side, let go, and falls back.", {"asset": "kidney_on_pad"},
           [{"box": [[-1, -1, -1], [1, round(corner[1] + 1e-4, 6), 1]], "fix": True}],
-          INTERACTIVE | {"duration": 3.0, "damping": 4.0},
+          INTERACTIVE | {"integrator": "backward_euler", "rate": 60, "duration": 3.0, "damping": 4.0, "budget": {"iterations": 2}},
           materials=[material(1e4, 0.43, density=1050), material(1.5e4, 0.43, density=1050, region=2), material(6e3, 0.4, region=3)],
           gravity=DOWN, self_contact={"friction": 0.4, "within_bodies": False}, view={"azimuth": 20, "elevation": 20, "zoom": 1.2},
           events=events + [{"at": 1.7, "release": True}])

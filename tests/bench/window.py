@@ -22,6 +22,7 @@ CASES = [
     ("uterus, verlet at 1 kHz", "uterus", {}),
     ("uterus, verlet at 1 kHz, float", "uterus", {"precision": "float"}),
     ("uterus, backward Euler at 60 Hz within 8 ms", "uterus", None),
+    ("kidney on a pad, backward Euler at 60 Hz, 2 iterations", "kidney_on_pad", {}),
 ]
 
 
