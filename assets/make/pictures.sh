@@ -26,7 +26,7 @@ irregular_cube 0.5
 large_cube 0.2
 kidney_on_table 1.6
 kidney_on_pad 1.4
-strip_tears 1.0
+strip_tears 2.1
 energy_law 0.5
 ventricle 0.32
 END
