@@ -39,7 +39,7 @@ def test_bench():
           [CLAMP, {"box": [[0.0999, -1, -1], [0.1001, 1, 1]], "translate": [0.05, 0, 0], "over": 2.0}],
           {"integrator": "backward_euler", "rate": 100, "duration": 2.5, "damping": 20, "budget": {"iterations": 2}},
           materials=[{"preset": "brain_ogden", "density": 1040}],
-          view={"azimuth": 20, "elevation": 15, "zoom": 0.8, "field": "stretch"},
+          view={"azimuth": 20, "elevation": 15, "zoom": 0.6, "field": "stretch"},
           outputs={"markers": [{"name": "middle", "box": [[0.0499, -1, -1], [0.0501, 1, 1]]}], "history": True, "every": 0.02})
 
 
@@ -124,7 +124,7 @@ def strip_tears():
           [CLAMP, {"box": [[0.0999, -1, -1], [0.1001, 1, 1]], "translate": [0.06, 0, 0], "over": 2.0}],
           INTERACTIVE | {"integrator": "backward_euler", "rate": 80, "projection": "none", "duration": 3.0, "damping": 10.0, "budget": {"iterations": 1}},
           materials=[material(2e4, 0.4)], gravity=DOWN, tearing={"stretch": 1.8},
-          view={"azimuth": 15, "elevation": 20, "zoom": 0.9, "field": "stretch"},
+          view={"azimuth": 15, "elevation": 20, "zoom": 0.7, "field": "stretch"},
           events=[{"at": 0.01, "cut": {"sweep": [[[0.049, 0.03, -1], [0.049, 0.03, 1]], [[0.049, 0.05, -1], [0.049, 0.05, 1]]], "goes_on": False}}])
 
 
