@@ -109,6 +109,16 @@ std::optional<ContactPoint> capsule_face_contact(const ContactSurface& capsule, 
                       (point - pair.on_axis) / pair.distance};
 }
 
+bool may_touch(const ContactSurface& capsule, const Vec3& a, const Vec3& b, const Vec3& c, double reach) {
+  const Vec3 axis = capsule.other - capsule.point;
+  const double square = axis.squaredNorm();
+  const double along = square > 0 ? std::clamp(axis.dot(a - capsule.point) / square, 0.0, 1.0) : 0;
+  const double size = std::max((b - a).squaredNorm(), (c - a).squaredNorm());
+  const double within = capsule.radius + reach;
+  // Nothing of the face is further from a than √size, and (√size + within)² ≤ 2 size + 2 within².
+  return !((a - capsule.point - along * axis).squaredNorm() > 2.0001 * (size + within * within));
+}
+
 std::optional<ContactPoint> thread_contact(const ContactSurface& thread, const Vec3& a, const Vec3& b, double reach) {
   const double length = (a - b).norm(), gap = thread.radius - length;
   if (!(gap < reach) || !(length > 0)) return std::nullopt;

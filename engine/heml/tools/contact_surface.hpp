@@ -100,6 +100,9 @@ struct ContactPoint {
 std::optional<ContactPoint> capsule_face_contact(const ContactSurface& capsule, const Triangle& face, const Vec3& a,
                                                  const Vec3& b, const Vec3& c, double reach);
 
+/// False only where a face with these corners (m) is no nearer to a capsule than `reach` (m).
+bool may_touch(const ContactSurface& capsule, const Vec3& a, const Vec3& b, const Vec3& c, double reach);
+
 /// Contact of a thread with its ends at a and b (m); none where it is slack by more than `reach` (m) or a equals b.
 std::optional<ContactPoint> thread_contact(const ContactSurface& thread, const Vec3& a, const Vec3& b, double reach);
 
@@ -108,6 +111,18 @@ struct ContactBoundary {
   std::vector<int> nodes;       ///< ascending
   std::vector<Triangle> faces;  ///< outward
 };
+
+/// Calls visit(ContactPoint) for each of these faces that has a point with a gap below `reach` (m) to a capsule, in
+/// their order.
+template <class At, class Visit>
+void each_capsule_contact(const ContactSurface& capsule, const std::vector<Triangle>& faces, double reach, const At& at,
+                          const Visit& visit) {
+  for (const Triangle& face : faces) {
+    const Vec3 a = at(face[0]), b = at(face[1]), c = at(face[2]);
+    if (!may_touch(capsule, a, b, c, reach)) continue;
+    if (const auto point = capsule_face_contact(capsule, face, a, b, c, reach)) visit(*point);
+  }
+}
 
 /// Calls visit(ContactPoint) for each contact point with a gap below `reach` (m), in the order of boundary.nodes or
 /// boundary.faces. at(node): position, m. Linear in the size of the boundary.
@@ -125,15 +140,7 @@ void each_contact(const ContactSurface& surface, const ContactBoundary& boundary
     }
     return;
   }
-  const Vec3 middle = (surface.point + surface.other) / 2;
-  const double extent = (surface.other - surface.point).norm() / 2 + surface.radius + reach;
-  for (const Triangle& face : boundary.faces) {
-    const Vec3 a = at(face[0]), b = at(face[1]), c = at(face[2]);
-    const double size = std::max((b - a).squaredNorm(), (c - a).squaredNorm());
-    const double away = (a - middle).norm() - extent;
-    if (away > 0 && away * away > size) continue;
-    if (const auto point = capsule_face_contact(surface, face, a, b, c, reach)) visit(*point);
-  }
+  each_capsule_contact(surface, boundary.faces, reach, at, visit);
 }
 
 /// The gap (m) at the nodes of a point found before, after the surface or the nodes moved; 0 where a thread or capsule

@@ -9,6 +9,7 @@ constexpr RoundLimit probe_cold{60, 1e-4};  // where a point is new
 constexpr RoundLimit probe_warm{8, 1e-3};   // where all are of earlier steps
 constexpr int max_searches = 8;             // for further points, in a step
 constexpr double deep_enough = 1e-6;        // of the radius: less deep faces are outside
+constexpr double near_enough = 0.25;        // of the radius: nodes may move by that until near faces are found again
 
 /// The same point without nodes that have no weight, the others ascending.
 ContactPoint on_feature(const ContactPoint& point) {
@@ -63,6 +64,29 @@ void ProbeImpulses<Real>::clear(std::size_t node_count) {
   rows_.clear(node_count);
   touches_.clear();
   has_started_ = false;
+  search_.nodes.clear();
+}
+
+/// All faces that may be inside the probe while nodes are where moved(node) tells. Impulses move nodes by little within
+/// a step, so nearly always the first search of a step serves the others.
+template <class Real>
+template <class Moved>
+const std::vector<Triangle>& ProbeImpulses<Real>::faces_near(const Check& check, const Moved& moved) {
+  const std::vector<int>& nodes = check.boundary.nodes;
+  const double margin = near_enough * check.now.radius;
+  bool serves =
+      search_.nodes.size() == nodes.size() && search_.tip == check.now.point && search_.other == check.now.other;
+  for (std::size_t i = 0; i < nodes.size() && serves; ++i)
+    serves = (moved(nodes[i]) - search_.nodes[i]).squaredNorm() <= margin * margin;
+  if (serves) return search_.near;
+  search_.tip = check.now.point;
+  search_.other = check.now.other;
+  search_.nodes.clear();
+  for (const int n : nodes) search_.nodes.push_back(moved(n));
+  search_.near.clear();
+  for (const Triangle& face : check.boundary.faces)
+    if (may_touch(check.now, moved(face[0]), moved(face[1]), moved(face[2]), margin)) search_.near.push_back(face);
+  return search_.near;
 }
 
 /// Relates a row to the moving surface: it asks that the point is no slower along the normal, and slides otherwise.
@@ -116,7 +140,7 @@ bool ProbeImpulses<Real>::add_points(const Check& check, const std::vector<Ancho
   const auto moved = [&](int n) -> Vec3 { return at(check.before, n) + h * at(v, n); };
   const auto was = [&](int n) { return at(check.before, n); };
   std::vector<std::pair<ContactPoint, double>> inside;  // and the velocity that is missing, m/s
-  each_contact(check.now, check.boundary, 0, moved, [&](const ContactPoint& point) {
+  each_capsule_contact(check.now, faces_near(check, moved), 0, moved, [&](const ContactPoint& point) {
     const double allowed_gap =
         std::min(0.0, updated_gap(check.then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
     if (allowed_gap - point.gap > deep_enough * check.now.radius)

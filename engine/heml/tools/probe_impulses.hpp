@@ -59,6 +59,8 @@ class ProbeImpulses {
     std::size_t surface;
     Vec3 velocity;  ///< m/s, of the probe
   };
+  template <class Moved>
+  const std::vector<Triangle>& faces_near(const Check& check, const Moved& moved);
   void start(const Check& check, const std::vector<AnchoredPoint>& known, Real* v);
   bool add_points(const Check& check, const std::vector<AnchoredPoint>& known, Real* v);
   void add(const Check& check, const ContactPoint& point, double closing, const std::vector<AnchoredPoint>& known,
@@ -68,6 +70,13 @@ class ProbeImpulses {
   ContactRows<Real> rows_;  ///< of each touch
   std::vector<Touch> touches_;
   bool has_started_ = false;
+  /// Of the last search for near faces in this step.
+  struct Search {
+    Vec3 tip, other;             ///< m, of the probe
+    std::vector<Vec3> nodes;     ///< m, of the boundary; none: no search yet
+    std::vector<Triangle> near;  ///< faces
+  };
+  Search search_;
 };
 
 }  // namespace heml

@@ -211,6 +211,25 @@ TEST_CASE("a probe meets every face within reach of it, in their order") {
   CHECK(met == expected);
 }
 
+TEST_CASE("no face that a capsule touches is said to be away from it") {
+  std::mt19937_64 random(4);
+  int touched = 0, away = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Vec3 tip = random_vector(random, 1), shaft = k % 3 ? random_vector(random, 2) : Vec3(Vec3::Zero());
+    const Vec3 middle = random_vector(random, 3);
+    const std::array<Vec3, 3> x{middle + random_vector(random, 1), middle + random_vector(random, 1),
+                                middle + random_vector(random, 1)};
+    const ContactSurface capsule = capsule_at(tip, shaft, 0.3);
+    const bool touches = capsule_face_contact(capsule, {0, 1, 2}, x[0], x[1], x[2], 0.2).has_value();
+    const bool may = may_touch(capsule, x[0], x[1], x[2], 0.2);
+    CHECK((may || !touches));
+    touched += touches;
+    away += !may;
+  }
+  CHECK(touched > 500);
+  CHECK(away > 5000);
+}
+
 TEST_CASE("the gap of a capsule grows by how far its point is moved along the normal") {
   const std::array<Vec3, 3> x = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const ContactSurface surface = ball({0.2, 0.3, 0.5}, 0.6);
