@@ -1,10 +1,10 @@
 # What every target of the project is compiled with, and nothing that links an installed heml. No contraction of a*b+c: a
 # build gives the same bits wherever it runs. Nobody reads errno or floating-point exceptions, which lets loops with a
 # choice in them be vectorised. Where files are compiled in batches, what is local in one may be named as what is global in
-# another: shadowing is looked for where each is compiled by itself (preset debug).
+# another: GCC then tells of names that hide other local ones, and of all where each is compiled by itself (preset debug).
 add_compile_options(-ffp-contract=off -fno-trapping-math -fno-math-errno
-  "$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wno-psabi>"
-  "$<$<AND:$<COMPILE_LANGUAGE:CXX>,$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>>:-Wshadow>"
+  "$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-psabi>"
+  "$<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-shadow;-Wshadow=local>"
   "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-unknown-pragmas>")
 if(HEML_SANITIZE)
   # A target that says HEML_ARITHMETIC is loops over floats: nothing in them is undefined, and looking takes minutes to compile.
