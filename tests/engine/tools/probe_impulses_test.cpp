@@ -78,4 +78,33 @@ TEST_CASE("friction on a probe holds below its coefficient and lets slide above"
   }
 }
 
+TEST_CASE("what other contacts bring to a probe within a step is stopped as well") {
+  Roof roof;
+  for (std::size_t n = 0; n < 4; ++n) roof.before[3 * n + 1] = 9;  // far outside
+  roof.v.assign(12, 0);
+  const auto stop = [&] {
+    roof.probe.stop({roof.capsule, roof.capsule, h, 0, true, roof.inverse_mass, roof.boundary, roof.before.data()}, {},
+                    roof.v.data());
+  };
+  roof.probe.clear(4);
+  stop();
+  CHECK(roof.probe.empty());
+  for (std::size_t n = 0; n < 4; ++n) roof.v[3 * n + 1] = -8.1 / h;  // to 0.1 inside
+  stop();
+  CHECK_FALSE(roof.probe.empty());
+  for (const double along_edge : {0.0, 0.5, 1.0}) {
+    const double y = 9 + h * ((1 - along_edge) * roof.v[1] + along_edge * roof.v[4]);
+    CHECK(y > 1 - 5e-6);
+  }
+}
+
+TEST_CASE("a probe meets faces that an edit made between two steps, where no node has moved") {
+  Roof roof;
+  const std::vector<Triangle> faces = roof.boundary.faces;
+  roof.boundary.faces.clear();
+  CHECK(roof.step(Vec3::Zero()) == 0);
+  roof.boundary.faces = faces;
+  CHECK(roof.step(Vec3(0, -1e-2, 0)) > 0);
+}
+
 }  // namespace heml::probe_impulses_test
